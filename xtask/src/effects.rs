@@ -107,6 +107,7 @@ const ROWS: &[Row] = &[
         kernel: "machine-ideal-pair",
     },
     Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
+    Row { name: "support", set: &["PAIR,support_amplification=1.2}"], base: "clutched pair", kernel: "" },
     Row { name: "checks", set: &["PAIR}", "checks={}"], base: "clutched pair", kernel: "" },
     Row { name: "energy", set: &["PAIR}", "output.energy=true"], base: "clutched pair", kernel: "" },
     Row {

@@ -307,6 +307,9 @@ class Inerter(Table):
         Delays between a command and a clutch that has obeyed it.
     weight
         Gravitational mass of the device, and what it rides on.
+    support_amplification
+        Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves
+        with the ground; from -10 to 10; 1.0 by default.
 
     Raises
     ------
@@ -331,6 +334,7 @@ class Inerter(Table):
     rack: Rack | None = None
     actuation: Actuation | None = None
     weight: Weight | None = None
+    support_amplification: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -370,6 +374,9 @@ class ClutchedPair(Table):
         Delays between a command and a clutch that has obeyed it.
     weight
         Gravitational mass of the device, and what it rides on.
+    support_amplification
+        Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves
+        with the ground; from -10 to 10; 1.0 by default.
 
     Raises
     ------
@@ -394,6 +401,7 @@ class ClutchedPair(Table):
     rack: Rack | None = None
     actuation: Actuation | None = None
     weight: Weight | None = None
+    support_amplification: float | None = None
 
 
 Device = NoDevice | Inerter | ClutchedPair

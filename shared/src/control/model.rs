@@ -9,7 +9,7 @@ use crate::math::sign::Sign;
 use crate::structure::Structure;
 use crate::structure::device::KinematicsKind;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
-use crate::structure::error::ParameterError;
+use crate::structure::error::{ParameterError, require};
 
 /// What the controller knows of the structure beside its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +63,13 @@ impl Model {
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range.
     pub fn new(structure: &Structure, drivetrain: &Drivetrain) -> Result<Model, ParameterError> {
+        let amplification = drivetrain.support.amplification;
+        require(
+            "support_amplification",
+            amplification,
+            amplification == 1.0,
+            "1 for a controller: its encoder is on the support",
+        )?;
         let structure = structure.loaded()?;
         let block = &structure.block;
         let body = structure.body(structure.device.kinematics == KinematicsKind::Consistent, true)?;

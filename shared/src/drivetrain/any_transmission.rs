@@ -25,11 +25,11 @@ pub enum TransmissionKind {
     Alone,
     /// One inerter, always engaged.
     Single,
-    /// One inerter with friction, or on a guided rack.
+    /// One inerter with friction, on a guided rack, or on a support that moves on its own.
     SingleWithFriction,
     /// The ideal clutched pair.
     Ideal,
-    /// The ideal clutched pair with friction, or on a guided rack.
+    /// The ideal clutched pair with friction, on a guided rack, or on a support that moves on its own.
     IdealWithFriction,
     /// Rigid clutches.
     Rigid,

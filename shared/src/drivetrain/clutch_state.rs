@@ -148,6 +148,8 @@ pub struct ModeCoefficients<S> {
     pub direction: S,
     /// Σ k of what moves rigidly with the rack.
     pub coupling: S,
+    /// Inertia force of ground and support on what moves rigidly with the rack, over ü_g/g, 1/s².
+    pub push: S,
     /// Viscous resistance at the rack, 1/s.
     pub viscous: S,
     /// Dry resistance at the rack with the sign of the motion, 1/s².

@@ -5,7 +5,7 @@ use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::structure::block::Block;
-use crate::structure::drivetrain::{Drivetrain, Engagement};
+use crate::structure::drivetrain::{Drivetrain, Engagement, Support};
 
 /// Drivetrain parameters in the units of the equations; all zero without a device.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,6 +18,9 @@ pub struct ScaledParameters<S> {
     pub rack_coupling: S,
     /// … and times p².
     pub rack_push: S,
+    /// Push of a support of its own motion, through a locked flywheel, on the rack: k n (ü_s − ü_g)/R over ü_g/g, which is
+    /// σ n (f − 1) p²; 1/s².
+    pub support_push: S,
     /// Viscous force of the rack, 1/s.
     pub rack_viscous: S,
     /// Dry friction of the rack, 1/s².
@@ -51,11 +54,12 @@ pub(crate) fn rounded_up<S: Real>(value: S) -> S {
 }
 
 impl<S: Real> ScaledParameters<S> {
-    /// Of `block`, which weighs `heavier` times as much as the one that the drivetrain's ratios refer to, with σ of its own.
+    /// Of `block`, which weighs `heavier` times as much as the one that the drivetrain's ratios refer to, with σ of its own, on a support
+    /// that moves with the ground.
     pub fn of(drivetrain: &Drivetrain, block: &Block, mass_ratio: f64, heavier: f64) -> ScaledParameters<S> {
         let (lambda, size, p2) = (block.inertia_ratio(), block.size(), block.frequency_parameter_squared());
         let k = mass_ratio / lambda;
-        let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
+        let Drivetrain { engagement, flywheel, rack, actuation, .. } = drivetrain;
         let stops_at_once = flywheel.brake_deceleration.is_infinite() || *engagement == Engagement::Ideal;
         let (mut capacity, mut stiffness, mut damping, mut half_play) = (f64::INFINITY, 0.0, 0.0, 0.0);
         match *engagement {
@@ -73,6 +77,7 @@ impl<S: Real> ScaledParameters<S> {
             mobility: S::of(if k > 0.0 { 1.0 / k } else { 0.0 }),
             rack_coupling: S::of(rack.guided_mass_ratio / (lambda * heavier)),
             rack_push: S::of(rack.guided_mass_ratio * p2 / heavier),
+            support_push: S::ZERO,
             rack_viscous: S::of(rack.viscous / (lambda * heavier)),
             rack_dry: S::of(rack.dry_ratio * p2 / heavier),
             bearing_rate: S::of(flywheel.viscous_rate),
@@ -88,6 +93,19 @@ impl<S: Real> ScaledParameters<S> {
         }
     }
 
+    /// On a support that moves horizontally with f times the ground's acceleration; `ratio` is that of [`Mount::support_ratio`].
+    ///
+    /// [`Mount::support_ratio`]: crate::structure::mount::Mount::support_ratio
+    pub fn on_support(self, support: Support, mass_ratio: f64, ratio: f64, p2: f64) -> ScaledParameters<S> {
+        ScaledParameters { support_push: S::of(mass_ratio * ratio * (support.amplification - 1.0) * p2), ..self }
+    }
+
+    /// Inertia force of ground and support on rack and flywheel if one flywheel were locked, with the sign of a resistance; over
+    /// ü_g/g, 1/s².
+    pub fn engaged_push(&self) -> S {
+        self.rack_push - self.support_push
+    }
+
     /// Capacity now and its growth.
     pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
         if wheel.engaged_for >= self.rise_time {
@@ -101,11 +119,12 @@ impl<S: Real> ScaledParameters<S> {
     #[inline]
     pub fn law(&self, direction: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = ModeCoefficients::of(direction);
-        law.coupling = self.rack_coupling;
+        (law.coupling, law.push) = (self.rack_coupling, self.rack_push);
         (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);
         for (i, wheel) in device.wheels.iter().enumerate() {
             if wheel.coupling == Coupling::Locked {
                 law.coupling = law.coupling + self.inertance;
+                law.push = law.push - self.support_push;
                 law.viscous = law.viscous + self.inertance * self.bearing_rate;
                 law.dry = law.dry + self.inertance * self.bearing_dry;
                 continue;

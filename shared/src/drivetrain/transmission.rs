@@ -226,7 +226,7 @@ pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
     friction: bool,
     resistance: Option<V>,
 ) -> V {
-    let moment = driving_moment(at, friction);
+    let moment = driving_moment(at, friction.then_some(at.law.push));
     if friction {
         let own = rack_friction(at);
         let resistance = match resistance {
@@ -255,17 +255,21 @@ pub fn resisted_acceleration<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>
     at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
-/// D, with the inertia force of the ground's acceleration on a guided rack.
+/// D, with the inertia force `push` (over ü_g/g, 1/s²) of the motions of ground and support at the rack.
 #[inline(always)]
-pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool) -> V {
+pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, push: Option<S>) -> V {
     let moment = at.body.driving_moment(&at.configuration, at.ground);
-    if rack { moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(at.parameters.rack_push)) } else { moment }
+    match push {
+        Some(push) => moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)),
+        None => moment,
+    }
 }
 
-/// sign · switching function of Eq. 10.
+/// sign · switching function of Eq. 10; a moving support pushes as through the flywheel that is asked for, so that engaging it does not
+/// change the sign.
 #[inline(always)]
 pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool, sign: S) -> V {
-    let driving_moment = driving_moment(at, rack);
+    let driving_moment = driving_moment(at, rack.then(|| at.parameters.engaged_push()));
     at.body.switching(&at.configuration, at.velocity, driving_moment).scale(sign)
 }
 
@@ -318,6 +322,9 @@ pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S
         }
         if locked {
             account.force[i] = locked_force(at, acceleration);
+            if parameters.support_push != S::ZERO {
+                account.force[i] = account.force[i] - parameters.support_push * at.ground[0];
+            }
         }
     }
     account

@@ -17,6 +17,19 @@ pub struct Rack {
     pub dry_ratio: f64,
 }
 
+/// The wall or frame that carries the device.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Support {
+    /// f = ü_s/ü_g, its horizontal acceleration at the device over the ground's; -10 to 10, 1 where it moves with the ground.
+    pub amplification: f64,
+}
+
+impl Default for Support {
+    fn default() -> Support {
+        Support { amplification: 1.0 }
+    }
+}
+
 /// What slows a flywheel down. Speeds and decelerations are those of a rack that moves with it: flywheel radius and gears are
 /// in the inertance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -99,6 +112,8 @@ pub struct Drivetrain {
     pub rack: Rack,
     /// Delays of the clutch.
     pub actuation: Actuation,
+    /// What carries it.
+    pub support: Support,
 }
 
 impl Drivetrain {
@@ -106,7 +121,7 @@ impl Drivetrain {
     /// [`ParameterError`] names the first parameter outside its range.
     pub fn check(&self) -> Result<(), ParameterError> {
         let within = |name, value: f64, most: f64, range| require(name, value, (0.0..=most).contains(&value), range).map(|_| ());
-        let Drivetrain { flywheel, rack, actuation, .. } = self;
+        let Drivetrain { flywheel, rack, actuation, support, .. } = self;
         within("guided_mass_ratio", rack.guided_mass_ratio, 10.0, "from 0 to 10")?;
         within("rack viscous", rack.viscous, 1e3, "from 0 to 1000 1/s")?;
         within("rack dry_ratio", rack.dry_ratio, 10.0, "from 0 to 10")?;
@@ -118,6 +133,16 @@ impl Drivetrain {
         if self.engagement == Engagement::Overrunning {
             // The block would catch up with a braked flywheel at once and be braked through it.
             within("brake_deceleration", flywheel.brake_deceleration, 0.0, "0 m/s² for an overrunning clutch")?;
+        }
+        let amplification = support.amplification;
+        require("support_amplification", amplification, (-10.0..=10.0).contains(&amplification), "from -10 to 10")?;
+        if *support != Support::default() {
+            // Their friction and their flywheels' speeds are relative to the support, whose velocity the equations do not have.
+            let asks = self.engagement != Engagement::Ideal
+                || *flywheel != FlywheelLosses::default()
+                || rack.viscous != 0.0
+                || rack.dry_ratio != 0.0;
+            require("support_amplification", amplification, !asks, "1 with friction or a flywheel that keeps its speed")?;
         }
         let capacity = |ratio: f64| require("capacity_ratio", ratio, ratio > 0.0 && ratio <= 1e6, "above 0, to 1e6").map(|_| ());
         match self.engagement {

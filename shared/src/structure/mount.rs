@@ -65,6 +65,15 @@ impl Mount {
         Ok(lever * lever)
     }
 
+    /// Travel of the terminals over a horizontal travel of the support; none of a vertical device.
+    pub fn support_ratio(&self) -> Option<f64> {
+        match *self {
+            Mount::CentreOfMass => Some(1.0),
+            Mount::TyingPoint { pulley_ratio, .. } => Some(pulley_ratio),
+            Mount::BaseCorners { .. } => None,
+        }
+    }
+
     /// ℓ at θ (rad), per R.
     ///
     /// # Errors

@@ -2,10 +2,10 @@
 
 use crate::CaseError;
 use crate::codec::{Reader, Writer};
-use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 
 pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<(), CaseError> {
-    let Drivetrain { engagement, flywheel, rack, actuation } = drivetrain;
+    let Drivetrain { engagement, flywheel, rack, actuation, support } = drivetrain;
     let (kind, numbers) = match *engagement {
         Engagement::Ideal => (0, [0.0; 4]),
         Engagement::Rigid => (1, [0.0; 4]),
@@ -23,7 +23,8 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
     out.numbers(&[engagement_delay, release_delay, rise_time, dwell, miss_probability])?;
     out.word(miss_seed as u32)?;
     out.word((miss_seed >> 32) as u32)?;
-    out.word(u32::from(delay == Delay::Transport))
+    out.word(u32::from(delay == Delay::Transport))?;
+    out.numbers(&[support.amplification])
 }
 
 pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
@@ -57,5 +58,6 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         miss_seed: u64::from(input.word("miss_seed")?) | u64::from(input.word("the upper half of miss_seed")?) << 32,
     };
     let delay = input.kind("delay", &[Delay::Inertial, Delay::Transport])?;
-    Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, ..actuation } })
+    let support = Support { amplification: input.number("support_amplification")? };
+    Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, ..actuation }, support })
 }

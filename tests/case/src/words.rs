@@ -1,4 +1,4 @@
-//! The words of a case, in order: 45 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
+//! The words of a case, in order: 46 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
 //! kinds count from 0 in the order in which their types list them. What a kind does not need is written as 0 and not looked
 //! at.
 //!
@@ -14,11 +14,12 @@
 //! | 25-29 | actuation: engagement delay, release delay, rise time, dwell, miss probability |
 //! | 30, 31 | its miss seed, lower and upper half |
 //! | 32 | its delay (kind) |
-//! | 33-35 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
-//! | 36-38 | initially (0 rest, 1 released), θ, θ̇ |
-//! | 39-41 | method (kind), step, free time |
-//! | 42-44 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
-//! | 45- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
+//! | 33 | support: amplification |
+//! | 34-36 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
+//! | 37-39 | initially (0 rest, 1 released), θ, θ̇ |
+//! | 40-42 | method (kind), step, free time |
+//! | 43-45 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
+//! | 46- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
 //! | then | the vertical motion: 10 words for each piece, shape and nine numbers; or as many samples |
 
 use crate::codec::{Reader, Writer};
@@ -34,7 +35,7 @@ use sprag_shared::structure::restitution::Restitution;
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
 
 /// Of the words' meaning.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 impl<'a> Case<'a> {
     /// Writes the case to the front of `words` and gives the number of words. Numbers are rounded to single precision.

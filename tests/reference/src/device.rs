@@ -42,6 +42,8 @@ pub struct Device {
     pub consistent: f64,
     /// Mass of a guided rack, μ_g.
     pub guided: f64,
+    /// ẍ_s/ü_g: acceleration of the terminal on the support, relative to the ground and as travel of the other one, over the ground's.
+    pub support: f64,
     /// Viscous friction of the rack, 1/s.
     pub rack_viscous: f64,
     /// Dry friction of the rack, m/s².
@@ -106,6 +108,7 @@ impl Device {
             (false, false) => (0.0, rack),
             (true, true) => return Err("rack and flywheels both on the block".to_owned()),
         };
+        let beyond = table.support_amplification.unwrap_or(1.0) - 1.0;
         let height = match mount {
             Mount::CentreOfMass => bare.size * bare.slenderness.cos(),
             Mount::TyingPoint(height, _) => height,
@@ -165,6 +168,11 @@ impl Device {
             lever: Lever::of(mount, bare, &block),
             consistent,
             guided: per * guided,
+            support: match mount {
+                Mount::CentreOfMass => beyond,
+                Mount::TyingPoint(_, pulley) => pulley * beyond,
+                Mount::BaseCorners(_) => 0.0,
+            },
             rack_viscous: per * viscous,
             rack_dry: per * dry * GRAVITY,
             bearing_viscous: table.flywheel.viscous_rate_1_s,

@@ -2,7 +2,8 @@
 //!
 //! (λ + (μ_g + nσ)ℓ²) θ̈ = −[(g + v̈_g) sin δ + ü_g cos δ + μ_g ℓ ü_g]/R − ℓF/R − (μ_g + nσ) ℓℓ′ θ̇²
 //!
-//! with n locked flywheels and F the friction of the rack, the bearings of locked flywheels and the forces of all other links.
+//! with n locked flywheels and F the friction of the rack, the bearings of locked flywheels and the forces of all other links. A flywheel
+//! on a support that accelerates by ẍ_s against the ground, as travel of the rack, turns with ẍ − ẍ_s: locked, it pulls σ(ẍ − ẍ_s).
 //! Flywheels that are not locked: ẇ = F/σ − c w − D sgn w, D = d, and d + b while open.
 
 use crate::block::{Block, GRAVITY, Restitution};
@@ -72,11 +73,17 @@ impl Model {
         -((GRAVITY + shaking.vertical) * pose.sin + ground) / self.block.size
     }
 
-    /// Acceleration of the terminals by weight and ground alone, over R: the `a` of Eq. 10. Flywheels do not change its sign.
+    /// Moment of `locked` flywheels that the support drives, over mR².
+    pub fn support_push(&self, pose: &Pose, shaking: Shaking, locked: f64) -> f64 {
+        locked * self.device.inertance * pose.lever * self.device.support * shaking.horizontal / self.block.size
+    }
+
+    /// Acceleration of the terminals by weight, ground and support alone, over R: the `a` of Eq. 10, with the flywheel that it would engage
+    /// on the rack, which does not change its sign.
     pub fn drive(&self, state: &State, shaking: Shaking) -> f64 {
         let pose = self.pose(state.side(), state.rotation());
         let centrifugal = self.device.consistent * pose.slope * state.velocity().powi(2);
-        let push = self.push(&pose, shaking);
+        let push = self.push(&pose, shaking) + self.support_push(&pose, shaking, 1.0);
         let inertia = self.block.inertia + self.device.guided * pose.lever * pose.lever;
         let acceleration = (push - self.device.guided * pose.lever * centrifugal) / inertia;
         pose.lever * acceleration + centrifugal
@@ -152,7 +159,8 @@ impl Model {
         let friction = device.rack_viscous * rack + device.rack_dry * direction;
         let moving = device.guided + locked * device.inertance;
         let centrifugal = device.consistent * moving * pose.lever * pose.slope * velocity * velocity;
-        let moment = self.push(pose, shaking) - pose.lever * (force + bearings + friction) / self.block.size - centrifugal;
+        let push = self.push(pose, shaking) + self.support_push(pose, shaking, locked);
+        let moment = push - pose.lever * (force + bearings + friction) / self.block.size - centrifugal;
         moment / (self.block.inertia + moving * pose.lever * pose.lever)
     }
 
@@ -196,7 +204,7 @@ impl Model {
             rates[ROTATION] = velocity;
             rates[VELOCITY] = self.acceleration(&pose, velocity, shaking, direction, locked, total);
             let ground = shaking.horizontal * (pose.cos + device.guided * pose.lever) + shaking.vertical * pose.sin;
-            rates[INPUT] = -ground * velocity / self.block.size;
+            rates[INPUT] = (self.support_push(&pose, shaking, locked) - ground / self.block.size) * velocity;
             rates[RACK] = over * (device.rack_viscous * rack + device.rack_dry * direction) * rack;
             let moving = device.guided + locked * device.inertance;
             rates[KINEMATICS] = (1.0 - device.consistent) * moving * pose.lever * pose.slope * velocity.powi(3);

@@ -187,7 +187,7 @@ impl Model {
             if way == 0.0 {
                 break;
             }
-            let going = self.going(&now, way);
+            let going = self.going(&now, way, shaking);
             let next = self.way_of_block(&going, shaking);
             if going.velocity() != 0.0 || next == way {
                 *state = going;
@@ -212,13 +212,17 @@ impl Model {
     }
 
     /// `state` as it would be on its way in `direction`: with what that makes engage or release at once.
-    fn going(&self, state: &State, direction: f64) -> State {
+    fn going(&self, state: &State, direction: f64, shaking: Shaking) -> State {
         let mut going = state.clone();
         let mut side = state.side();
         if state.rotation() == 0.0 {
             (side, going.drive, going.armed) = (direction, direction, true);
         }
         going.block = BlockMode::Rocking { side, direction };
+        if state.rotation() == 0.0 && self.device.support != 0.0 {
+            // What lifts the block with open clutches is not the whole push of Eq. 10.
+            self.look_at_drive(&mut going, shaking);
+        }
         if self.device.is_commanded() {
             self.command(&mut going);
             self.settle_springs(&mut going);

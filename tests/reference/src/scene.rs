@@ -89,6 +89,7 @@ pub struct DeviceTable {
     pub actuation: ActuationTable,
     #[serde(default)]
     pub weight: WeightTable,
+    pub support_amplification: Option<f64>,
 }
 
 /// One flywheel of a train (Eq. 9).

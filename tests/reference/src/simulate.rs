@@ -85,6 +85,7 @@ fn point_of_no_return(block: &Block, device: &Device, horizontal: &Ground, verti
     let lightest = (GRAVITY - vertical.bound()).max(0.05 * GRAVITY);
     let (lever, _) = device.lever.at(1.0, block.slenderness);
     let plates = if device.capacity.is_finite() { 2.0 * device.capacity } else { 0.0 };
+    let moved = device.guided + 2.0 * device.inertance * device.support.abs();
     let holds = device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates;
-    block.slenderness * 3.0 + 1.5 * (horizontal.bound() * (1.0 + device.guided * lever) + lever * holds) / lightest
+    block.slenderness * 3.0 + 1.5 * (horizontal.bound() * (1.0 + moved * lever) + lever * holds) / lightest
 }

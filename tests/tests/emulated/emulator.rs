@@ -13,7 +13,7 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use sprag_shared::structure::{Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
 
@@ -214,6 +214,7 @@ fn effects() -> Vec<Effect> {
             added_mass: gears,
             ..Effect::of("guided rack and carried mass", Drivetrain { rack: guided, ..Drivetrain::default() })
         },
+        Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
         Effect { restitution: balance, added_mass: gears, ..Effect::of("all together", all) },
     ]

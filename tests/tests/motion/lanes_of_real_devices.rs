@@ -111,7 +111,7 @@ impl Segmented for Both {
 
 /// Checks of the force on the support, and with `all` of everything else.
 fn checks(structure: &Structure, all: bool) -> Checks<f64> {
-    let account = Account { clutching: Clutching::Rigid, mass_ratio: structure.device.mass_ratio, rack_mass_ratio: 0.0 };
+    let account = Account { clutching: Clutching::Rigid, mass_ratio: structure.device.mass_ratio, ..Account::default() };
     let checks = Checks::new(&structure.block, structure.geometry, &structure.device.mount, &account).unwrap();
     if all { checks } else { checks.brief() }
 }

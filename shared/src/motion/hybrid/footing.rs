@@ -27,7 +27,11 @@ impl<S: Real> HybridSystem<S> {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let (horizontal, vertical) = self.body.factors(&configuration);
             let arm = self.body.arm(&configuration);
-            ((horizontal - arm * self.transmission.parameters.rack_push).abs(), -side.times(vertical))
+            let parameters = &self.transmission.parameters;
+            // However many flywheels a controller has engaged.
+            let pushes = [0, 1, 2].map(|locked| parameters.rack_push - S::count(locked) * parameters.support_push);
+            let push = pushes.map(|push| (horizontal - arm * push).abs());
+            (push[0].larger(push[1]).larger(push[2]), -side.times(vertical))
         });
         Footing { push: push.larger(other), weight: weight.smaller(light) }
     }

@@ -5,7 +5,7 @@ use crate::drivetrain::any_transmission::{AnyTransmission, TransmissionKind};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::math::scalar::Real;
 use crate::structure::device::{DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement, Rack};
+use crate::structure::drivetrain::{Drivetrain, Engagement, Rack, Support};
 use crate::structure::error::{ParameterError, require};
 use crate::structure::restitution::{Restitution, momentum_balance};
 use crate::structure::{COUNTED_SPEED, Structure};
@@ -25,6 +25,10 @@ impl Drivetrain {
         require("rest_speed", rest_speed, (1e-12..=1e-2).contains(&rest_speed), "from 1e-12 to 1e-2")?;
         let restitution = restitutions(&structure, sigma, self.rack.guided_mass_ratio / heavier)?;
         let consistent = self.has_memory(device.kind) || device.kinematics == KinematicsKind::Consistent;
+        let (p2, f) = (block.frequency_parameter_squared(), self.support.amplification);
+        let ratio = device.mount.support_ratio();
+        require("support_amplification", f, ratio.is_some() || f == 1.0, "1 for vertical devices at the base corners")?;
+        let ratio = ratio.unwrap_or_default();
         let speed = block.frequency_parameter() * block.slenderness();
         Ok(HybridSystem {
             body: structure.body(consistent, vertical)?,
@@ -32,7 +36,7 @@ impl Drivetrain {
                 kind: self.transmission(device.kind),
                 parameters: match device.kind {
                     DeviceKind::None => ScaledParameters::default(),
-                    _ => ScaledParameters::of(self, &block, sigma, heavier),
+                    _ => ScaledParameters::of(self, &block, sigma, heavier).on_support(self.support, sigma, ratio, p2),
                 },
             },
             restitution: restitution.map(S::of),
@@ -51,8 +55,9 @@ impl Drivetrain {
     }
 
     fn transmission(&self, kind: DeviceKind) -> TransmissionKind {
-        let Drivetrain { engagement, flywheel, rack, .. } = self;
+        let Drivetrain { engagement, flywheel, rack, support, .. } = self;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
+        let friction = friction || *support != Support::default();
         match (kind, engagement) {
             (DeviceKind::None, _) => TransmissionKind::Alone,
             (DeviceKind::Inerter, _) if friction => TransmissionKind::SingleWithFriction,

@@ -172,6 +172,11 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
+        if self.transmission.parameters.support_push != S::ZERO {
+            // What lifts the block is not what it would meet with a flywheel engaged.
+            self.look_at_drive(state);
+            state.fresh[0] = false;
+        }
         observer.event(Event::Uplift, time, &state.motion);
     }
 

@@ -91,6 +91,7 @@ impl<S: Real> HybridSystem<S> {
         let arm = self.body.arm(&configuration);
         let parameters = &self.transmission.parameters;
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
+        let mut push = parameters.rack_push;
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
         let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
             Coupling::Locked => true,
@@ -100,6 +101,7 @@ impl<S: Real> HybridSystem<S> {
         let wheels = &state.device.wheels;
         for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
             dry = add(dry, parameters.standing_friction(wheel));
+            push = push - parameters.support_push;
         }
         let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
         if wheels.iter().any(pulls) {
@@ -111,7 +113,7 @@ impl<S: Real> HybridSystem<S> {
             }
         }
         Threshold {
-            horizontal: sign.times(horizontal - arm * parameters.rack_push),
+            horizontal: sign.times(horizontal - arm * push),
             vertical: sign.times(vertical),
             constant: -(arm * dry.0) - sign.times(arm * force.0),
             growth: -(arm * dry.1) - sign.times(arm * force.1),

@@ -3,6 +3,7 @@
 
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, GUARDS, ModeCoefficients};
+use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -60,11 +61,17 @@ impl<S: Real> HybridSystem<S> {
 
     /// Bound of the push on the block, over its weight at its lightest, that decides where it can no longer return
     /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g) and a 1 + v̈_g/g of at
-    /// least `lightest`: a light block falls under a weaker push, a guided rack is pushed too, and friction may hold the block beyond.
+    /// least `lightest`: a light block falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed
+    /// too, and friction may hold the block beyond.
     pub fn push_bound(&self, bound: f64, lightest: f64) -> f64 {
         let parameters = &self.transmission.parameters;
         let p2 = self.body.frequency_squared().to_f64();
-        let (held, pushed) = (parameters.rack_dry.to_f64() / p2, parameters.rack_push.to_f64() / p2);
+        let lever = match self.body {
+            AnyBody::Slender(body) => body.lever.to_f64(),
+            AnyBody::Full(_) => 1.0,
+        };
+        let at_rack = parameters.rack_push.to_f64() + 2.0 * parameters.support_push.to_f64().abs();
+        let (held, pushed) = (lever * parameters.rack_dry.to_f64() / p2, lever * at_rack / p2);
         (bound * (1.0 + pushed) + held) / lightest
     }
 }

@@ -28,7 +28,7 @@ fn checks(structure: &Structure) -> Checks<f64> {
         DeviceKind::Inerter => (Clutching::Permanent, device.mass_ratio),
         DeviceKind::ClutchedPair => (Clutching::Ideal, device.mass_ratio),
     };
-    let account = Account { clutching, mass_ratio, rack_mass_ratio: 0.0 };
+    let account = Account { clutching, mass_ratio, ..Account::default() };
     Checks::new(&structure.block, structure.geometry, &device.mount, &account).unwrap()
 }
 

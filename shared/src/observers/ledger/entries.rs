@@ -7,7 +7,7 @@ use crate::math::scalar::Real;
 pub struct Entries<S> {
     /// Energy at the start.
     pub initial: S,
-    /// Work of the ground on block and rack, in the frame that moves with it.
+    /// Work of the ground on block and rack, and of a support of its own motion on flywheels, in the frame that moves with the ground.
     pub input: S,
     /// Kinetic energy of the block.
     pub kinetic: S,

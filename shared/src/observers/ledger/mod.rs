@@ -5,7 +5,11 @@
 //!
 //! initial + input + created = kinetic + potential + stored + Σ dissipated,
 //!
-//! input = −p² ∫ [ (ü_g/g)(cos δ + (m_rack/m) ℓ) + (v̈_g/g) sin δ ] θ̇ dt,  kinetic = ½θ̇²,  potential = p² (cos δ − cos α);
+//! input = −p² ∫ [ (ü_g/g)(cos δ + (m_rack/m − N σ n (f − 1)) ℓ) + (v̈_g/g) sin δ ] θ̇ dt,  kinetic = ½θ̇²,
+//! potential = p² (cos δ − cos α);
+//!
+//! N flywheels are engaged, on a support that moves with f times the ground's acceleration, through a pulley n. Energies are relative to
+//! the ground (Uang and Bertero 1990), those of flywheels too, so that the work of such a support is that of its inertia force on them.
 //!
 //! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every interval by Gauss-Legendre
 //! quadrature, with an error far below rounding on a series; what jumps at an event goes to what caused it. No entry is
@@ -47,6 +51,8 @@ pub struct Account {
     pub mass_ratio: f64,
     /// Mass of a guided rack over the block's.
     pub rack_mass_ratio: f64,
+    /// n (f − 1): acceleration of the terminals by the support's own motion over ü_g.
+    pub support: f64,
 }
 
 /// Observer that sums the [`Entries`] of a motion.
@@ -61,6 +67,7 @@ pub struct Ledger<S> {
     slenderness: S,
     coupling: S,
     rack: S,
+    support: S,
     /// Potential energy at θ = α, which a block must pass to overturn by itself: p²(1 − cos α), slender ½p²α²; 1/s². It stands
     /// for mgR(1 − cos α) joules.
     pub barrier: S,
@@ -122,6 +129,7 @@ impl<S: Real> Ledger<S> {
             slenderness: S::of(alpha),
             coupling: S::of(account.mass_ratio / block.inertia_ratio()),
             rack: S::of(account.rack_mass_ratio),
+            support: S::of(account.mass_ratio * account.support),
             barrier: S::ZERO,
             last: None,
             since: Since::default(),
@@ -140,12 +148,14 @@ impl<S: Real> Ledger<S> {
         }
     }
 
-    /// Work per time of the ground on block and rack.
+    /// Work per time of ground and support on block, rack and flywheels.
     fn input(&self, side: Sign, snapshot: &Snapshot<S>) -> S {
         let (sin, cos) = self.geometry.sin_cos(side.times(self.slenderness) - snapshot.motion.rotation);
         let [horizontal, vertical] = snapshot.ground;
         let block = (horizontal * cos + vertical * sin) * snapshot.motion.velocity;
-        -self.frequency_squared * (block + self.rack * horizontal * snapshot.terminal_velocity)
+        let engaged = snapshot.device.engaged.map(u32::from).iter().sum();
+        let rack = self.rack - S::count(engaged) * self.support;
+        -self.frequency_squared * (block + rack * horizontal * snapshot.terminal_velocity)
     }
 
     fn balance(&self, side: Sign, snapshot: &Snapshot<S>) -> Balance<S> {

@@ -20,7 +20,7 @@ fn ledger(structure: &Structure) -> Ledger<f64> {
         _ => Clutching::Permanent,
     };
     let mass_ratio = if structure.device.kind == DeviceKind::None { 0.0 } else { structure.device.mass_ratio };
-    Ledger::new(&structure.block, structure.geometry, &Account { clutching, mass_ratio, rack_mass_ratio: 0.0 })
+    Ledger::new(&structure.block, structure.geometry, &Account { clutching, mass_ratio, ..Account::default() })
 }
 
 fn follow(structure: &Structure, ground: &[(Shake, f64)], from: Option<(f64, f64)>) -> (BlockState<f64>, Entries<f64>) {
@@ -238,7 +238,7 @@ fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<
 
 fn scripted(clutching: Clutching, rack_mass_ratio: f64) -> Ledger<f64> {
     let block = Block::of_unit_frequency(0.3, 1.25).unwrap();
-    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio })
+    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio, support: 0.0 })
 }
 
 fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>) {

@@ -109,6 +109,7 @@ fn effects_are_listed_and_shown() {
     let names = [
         "kinematics",
         "mount",
+        "support",
         "geometry",
         "vertical",
         "impact",

@@ -76,13 +76,14 @@ pub struct Steps {
 }
 
 impl HybridBlock<'_> {
-    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, clutches that no controller commands.
+    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, a support that moves with the ground, clutches that no controller commands.
     pub fn knows(system: &HybridSystem<f64>) -> bool {
         let consistent = match system.body {
             AnyBody::Slender(_) => true,
             AnyBody::Full(body) => body.consistent || system.transmission.kind == TransmissionKind::Alone,
         };
-        consistent && system.transmission.parameters.rack_push == 0.0 && !system.actuator.controlled
+        let parameters = &system.transmission.parameters;
+        consistent && parameters.rack_push == 0.0 && parameters.support_push == 0.0 && !system.actuator.controlled
     }
 
     /// Whether lanes may take it.

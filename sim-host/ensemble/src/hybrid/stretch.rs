@@ -289,7 +289,7 @@ impl<B: LaneBody> Stretch<B> {
                 ground: [given(2), given(3)],
                 clock: given(4),
             };
-            let moment = driving_moment(&at, false);
+            let moment = driving_moment(&at, None);
             let mut resistance = rack_friction(&at);
             if self.kind.plates {
                 resistance = resistance + plate_force(&at);

@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 65] = [
+const QUANTITIES: [Quantity; 66] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -62,6 +62,7 @@ const QUANTITIES: [Quantity; 65] = [
     quantity("device.N.weight.flywheels_kg", "mass of the flywheels", "", "kg"),
     quantity("device.N.weight.rack_ratio", "mass of the rack over that of the block", "", ""),
     quantity("device.N.weight.rack_kg", "mass of the rack", "", "kg"),
+    quantity("device.N.support_amplification", "acceleration of the support over the ground's", "", ""),
     quantity("ground.N.amplitude_ratio", "amplitude", "*a*_g/@", ""),
     quantity("ground.N.amplitude_g", "amplitude", "*a*_g", "g"),
     quantity("ground.N.amplitude_m_s2", "amplitude", "*a*_g", "m/s²"),

@@ -1,7 +1,7 @@
 //! A scene over which loops can be closed.
 
 use sprag_shared::structure::device::DeviceKind;
-use sprag_shared::structure::drivetrain::Engagement;
+use sprag_shared::structure::drivetrain::{Engagement, Support};
 
 use super::LoopTask;
 use crate::interrupt::Interrupt;
@@ -50,6 +50,10 @@ impl LoopScene {
                 let reason = "an overrunning clutch takes no commands";
                 return Err(scene.key(&format!("device.{index}.engagement")).conflict(reason).into());
             }
+            if scene.devices[index].drivetrain.support != Support::default() {
+                let reason = "the controller's encoder reads the rack against the support, whose displacement is not known";
+                return Err(scene.key(&format!("device.{index}.support_amplification")).conflict(reason).into());
+            }
         }
         let ground = scene.ground_motions()?;
         let controller = scene.file.controller.clone().unwrap_or_default();
@@ -87,6 +91,10 @@ mod tests {
             ("block.initial_rotation_ratio=0.5", "scene: block.initial_rotation_ratio is 0.5, but must be 0"),
             ("block.initial_velocity_ratio=-1", "scene: block.initial_velocity_ratio is -1, but must be 0"),
             ("device.1.engagement=overrunning", "scene: device.1.engagement: "),
+            (
+                "device.1={ kind='clutched-pair', mass_ratio=0.5, support_amplification=1.1 }",
+                "scene: device.1.support_amplification: ",
+            ),
         ] {
             let error = scene(change).unwrap_err().to_string();
             assert!(error.starts_with(refusal), "{error}");

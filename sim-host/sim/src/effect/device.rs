@@ -1,7 +1,8 @@
-//! Effects of where a device is attached and what it weighs: mount, kinematics, weight, rack.
+//! Effects of where a device is attached and what it weighs: mount, support, kinematics, weight, rack.
 
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::drivetrain::Support;
 use sprag_shared::structure::mount::Mount;
 
 use super::Effect;
@@ -18,6 +19,21 @@ pub const MOUNT: Effect = Effect {
     source: "Figures 3 and 4 of the paper, Eq. 11; other points by the same derivative",
     keys: &["device.N.mount", "device.N.mount_height_m", "device.N.pulley_ratio"],
     is_on: |scene, index| scene.devices[index].device.mount != Mount::CentreOfMass,
+};
+
+/// A support that moves on its own.
+pub const SUPPORT: Effect = Effect {
+    name: "support",
+    summary: "a wall or frame that carries the device and amplifies or reduces the motion of the ground",
+    equation: &[
+        "ü_s = f ü_g at the device; a flywheel feels the terminals against the support:",
+        "F = m_r (ẍ − n (ü_s − ü_g)),  ẍ relative to the ground",
+        "engaged, it adds κ σ ℓ n (f − 1) ü_g/R to the push of the ground (n: the pulley's ratio);",
+        "Eq. 10 looks at the acceleration of the terminals relative to the ground with that push",
+    ],
+    source: "d'Alembert's force of an inerter between two moving terminals (Smith 2002)",
+    keys: &["device.N.support_amplification"],
+    is_on: |scene, index| scene.devices[index].drivetrain.support != Support::default(),
 };
 
 /// The θ̇² term.

@@ -35,11 +35,12 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 13] = [
+pub const EFFECTS: [&Effect; 14] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
     &device::MOUNT,
+    &device::SUPPORT,
     &device::KINEMATICS,
     &device::WEIGHT,
     &device::RACK,

@@ -2,7 +2,7 @@
 
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses};
+use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses, Support};
 use sprag_shared::structure::mount::Mount;
 
 use super::explanation::Subject;
@@ -70,7 +70,15 @@ fn forces(subject: &Subject<'_>) -> String {
     if drivetrain.rack.guided_mass_ratio != 0.0 {
         text += " − μ_g ℓ ü_g/R";
     }
+    if let (true, Some(locked)) = (moves(subject), locked(subject)) {
+        text += &format!(" + {locked} ℓ n (f − 1) ü_g/R");
+    }
     text
+}
+
+/// The support moves on its own.
+fn moves(subject: &Subject<'_>) -> bool {
+    subject.device.drivetrain.support != Support::default()
 }
 
 fn has_bearing(flywheel: &FlywheelLosses) -> bool {
@@ -108,6 +116,13 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
     if rack.guided_mass_ratio != 0.0 {
         let ratio = number(subject.per_mass(rack.guided_mass_ratio));
         lines.push(format!("μ_g = {ratio}: mass over m of a rack on guides of the support"));
+    }
+    if moves(subject) {
+        lines.push(format!(
+            "f = ü_s/ü_g = {}: the support's acceleration over the ground's,  n = {}: the pulley's ratio",
+            number(drivetrain.support.amplification),
+            number(subject.loaded.device.mount.support_ratio().unwrap_or(0.0))
+        ));
     }
     lines
 }

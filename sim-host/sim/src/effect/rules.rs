@@ -177,14 +177,24 @@ fn uplift(subject: &Subject<'_>) -> String {
     };
     let dry = subject.per_mass(drivetrain.rack.dry_ratio) + bearing;
     let guided = subject.per_mass(drivetrain.rack.guided_mass_ratio);
-    if dry == 0.0 && guided == 0.0 {
+    // A pair's clutches are open.
+    let permanent = if structure.device.kind == DeviceKind::Inerter { structure.device.mass_ratio } else { 0.0 };
+    let beyond = drivetrain.support.amplification - 1.0;
+    let supported = permanent * structure.device.mount.support_ratio().unwrap_or(0.0) * beyond;
+    if dry == 0.0 && guided == 0.0 && supported == 0.0 {
         return format!("uplifts from rest when |ü_g| > {weight} {slope},  {slope} = {}", number(threshold));
     }
     let (sin, cos) = match geometry {
         Geometry::Full => ("sin α", "cos α"),
         Geometry::Slender => ("α", "1"),
     };
-    let push = if guided == 0.0 { format!("{cos} |ü_g|") } else { format!("({cos} + μ_g ℓ) |ü_g|") };
+    let pushes = [(guided, " + μ_g ℓ"), (supported, " − σ n (f − 1) ℓ")];
+    let more: String = pushes.iter().filter(|(value, _)| *value != 0.0).map(|(_, term)| *term).collect();
+    let push = match (more.as_str(), supported == 0.0) {
+        ("", _) => format!("{cos} |ü_g|"),
+        (more, true) => format!("({cos}{more}) |ü_g|"),
+        (more, false) => format!("|{cos}{more}| |ü_g|"),
+    };
     let terms = [(drivetrain.rack.dry_ratio, " + μ_r g ℓ"), (bearing, term)];
     let hold: String = terms.iter().filter(|(value, _)| *value != 0.0).map(|(_, term)| *term).collect();
     let lever = structure.device.mount.lever_at(block, geometry, 0.0).unwrap_or(0.0);
@@ -192,7 +202,7 @@ fn uplift(subject: &Subject<'_>) -> String {
         Geometry::Full => math::sin_cos(block.slenderness()),
         Geometry::Slender => (block.slenderness(), 1.0),
     };
-    let value = (moments.0 + lever * dry) / (moments.1 + lever * guided);
+    let value = (moments.0 + lever * dry) / (moments.1 + lever * (guided - supported)).abs();
     let quiet = if subject.has_vertical() { " while v̈_g = 0" } else { "" };
     format!("uplifts from rest when {push} > {weight} {sin}{hold}: above {} g{quiet}", number(value))
 }

@@ -20,8 +20,15 @@ fn every_effect_is_complete_and_has_a_name_of_its_own() {
 #[test]
 fn every_key_beyond_the_ideal_device_belongs_to_an_effect() {
     let known: Vec<&str> = EFFECTS.into_iter().flat_map(|effect| effect.keys).copied().collect();
-    let tables =
-        ["device.N.clutch.", "device.N.flywheel.", "device.N.rack.", "device.N.actuation.", "device.N.weight.", "checks."];
+    let tables = [
+        "device.N.clutch.",
+        "device.N.flywheel.",
+        "device.N.rack.",
+        "device.N.actuation.",
+        "device.N.weight.",
+        "device.N.support",
+        "checks.",
+    ];
     for key in keys(SceneFile::schema()).into_iter().filter(|key| !key.is_table) {
         let belongs = known.contains(&key.path.as_str());
         assert!(belongs || !tables.iter().any(|table| key.path.starts_with(table)), "{} belongs to no effect", key.path);

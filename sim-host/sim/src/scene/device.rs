@@ -84,6 +84,7 @@ impl SceneDevice {
             },
             mass_ratio: loaded.device.mass_ratio,
             rack_mass_ratio: self.drivetrain.rack.guided_mass_ratio / (1.0 + self.added_mass.mass_ratio),
+            support: self.device.mount.support_ratio().unwrap_or(0.0) * (self.drivetrain.support.amplification - 1.0),
         }
     }
 }
@@ -132,6 +133,9 @@ pub struct DeviceTable {
     pub actuation: Option<ActuationTable>,
     /// Gravitational mass of the device, and what it rides on.
     pub weight: Option<WeightTable>,
+    /// Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves with the ground.
+    #[schemars(range(min = -10.0, max = 10.0), extend("default" = 1.0))]
+    pub support_amplification: Option<f64>,
 }
 
 impl DeviceTable {
@@ -153,6 +157,7 @@ impl DeviceTable {
             rack: None,
             actuation: None,
             weight: None,
+            support_amplification: None,
         }
     }
 }
@@ -297,6 +302,7 @@ fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>
             ("rack", table.rack.is_some()),
             ("actuation", table.actuation.is_some()),
             ("weight", table.weight.is_some()),
+            ("support_amplification", table.support_amplification.is_some()),
         ];
         return match stray.iter().find(|(_, given)| *given) {
             Some((name, _)) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),

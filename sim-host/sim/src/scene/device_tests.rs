@@ -143,7 +143,9 @@ fn a_mass_adds_to_what_it_rides_on() {
 
 #[test]
 fn a_device_without_an_inerter_has_none_of_it() {
-    for item in ["engagement=ideal", "flywheel={}", "clutch={}", "rack={}", "actuation={}", "weight={}"] {
+    for item in
+        ["engagement=ideal", "flywheel={}", "clutch={}", "rack={}", "actuation={}", "weight={}", "support_amplification=1"]
+    {
         let name = item.split('=').next().unwrap();
         refused(&[&format!("device.0.{item}")], &[&format!("device.0.{name}"), "has no inerter"]);
     }
@@ -185,6 +187,29 @@ fn contradictory_effects_are_refused_with_the_reason() {
     let both = "device.1.weight={ flywheels_ratio = 0.1, flywheels_on = \"block\", rack_ratio = 0.1, rack_on = \"block\" }";
     refused(&[both], &["device.1.weight.rack_on", "nothing turns the flywheels"]);
     refused(&["device.1.mount=base-corners", "device.1.weight.rack_ratio=0.1"], &["device.1.weight.rack_ratio", "vertical rack"]);
+    let moves = "device.2.support_amplification=1.2";
+    refused(&["device.2.mount=base-corners", moves], &["device.2.support_amplification", "vertical devices"]);
+    for (item, name) in [
+        ("engagement=rigid", "engagement"),
+        ("clutch.capacity_ratio=1", "clutch"),
+        ("flywheel.viscous_rate_1_s=1", "flywheel"),
+        ("rack.dry_friction_ratio=0.1", "rack"),
+    ] {
+        refused(
+            &[moves, &format!("device.2.{item}")],
+            &["device.2.support_amplification", name, "only its acceleration is known"],
+        );
+    }
+}
+
+#[test]
+fn a_support_that_moves_with_the_ground_is_none_of_it() {
+    let on = |item: &str| parsed(&[&format!("device.2.{item}")]).unwrap().devices[2].clone();
+    assert!(on("support_amplification=1").is_ideal());
+    let moved = on("support_amplification=0");
+    assert!(!moved.is_ideal() && moved.drivetrain.support.amplification == 0.0);
+    assert!(parsed(&["device.2.actuation.dwell_s=1", "device.2.support_amplification=1.2"]).is_ok());
+    assert!(parsed(&["device.2.weight.rack_ratio=0.1", "device.2.support_amplification=1.2"]).is_ok());
 }
 
 #[test]
@@ -196,6 +221,10 @@ fn flywheels_with_a_memory_need_a_horizontal_mount_and_an_inertance() {
         refused(&["device.2.mass_ratio=0", &item], &[&key, "mass ratio is 0"]);
     }
     refused(&["device.1.mass_ratio=0", "device.1.flywheel.viscous_rate_1_s=1"], &["device.1.flywheel", "mass ratio is 0"]);
+    refused(
+        &["device.1.mass_ratio=0", "device.1.support_amplification=2"],
+        &["device.1.support_amplification", "mass ratio is 0"],
+    );
     assert!(parsed(&["device.1.mass_ratio=0", "device.1.rack.viscous_1_s=1"]).is_ok());
     assert!(parsed(&["device.1.mount=base-corners", "device.1.flywheel.viscous_rate_1_s=1"]).is_ok());
 }
@@ -234,6 +263,7 @@ fn a_value_outside_its_range_is_named_by_its_key() {
         ("device.2.actuation.engagement_delay_s=11", "device.2.actuation.engagement_delay_s is 11", "from 0 to 10 s"),
         ("device.2.actuation.miss_probability=2", "device.2.actuation.miss_probability is 2", "from 0 to 1"),
         ("device.2.actuation.miss_seed=-1", "miss_seed", "u64"),
+        ("device.1.support_amplification=11", "device.1.support_amplification is 11", "from -10 to 10"),
         ("device.1.weight.rack_ratio=11", "device.1.weight.rack_ratio is 11", "from 0 to 10"),
         ("device.1.weight.rack_kg=1e5", "device.1.weight.rack_kg over block.mass_kg is 100", "from 0 to 10"),
         ("device.1.weight.rack_kg=-1", "device.1.weight.rack_kg is -1", "0 kg or more"),
@@ -270,6 +300,7 @@ fn methods_for_ideal_devices_are_refused_beyond_them() {
         ("device.1.weight.rack_ratio=0.1", "device.1.weight"),
         ("device.1.flywheel.viscous_rate_1_s=1", "device.1.flywheel"),
         ("device.2.actuation.dwell_s=1", "device.2.actuation"),
+        ("device.1.support_amplification=1.2", "device.1.support_amplification"),
         (vertical, "vertical"),
     ] {
         refused(&[taylor[0], taylor[1], item], &["accuracy.method", "taylor in f32", "ideal devices only", key]);

@@ -141,14 +141,14 @@ impl<S: Real> Observer<S> for EnergyHistory<S> {
 
 #[cfg(test)]
 mod tests {
-    use sprag_shared::observers::ledger::{Account, Clutching};
+    use sprag_shared::observers::ledger::Account;
     use sprag_shared::structure::block::{Block, Geometry};
 
     use super::*;
 
     #[test]
     fn times_of_a_ledger_do_not_go_back() {
-        let account = Account { clutching: Clutching::Permanent, mass_ratio: 0.0, rack_mass_ratio: 0.0 };
+        let account = Account::default();
         let block = Block::new(2.0, 0.2, 4.0 / 3.0).unwrap();
         let mut history = EnergyHistory::<f64>::new(Ledger::new(&block, Geometry::Slender, &account), 0.01);
         // The end of one piece of ground motion, and the start of the next.

@@ -25,7 +25,7 @@ use sprag_shared::{
     },
     structure::{
         block::{Block, RECTANGLE_INERTIA_RATIO},
-        drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack},
+        drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support},
     },
 };
 
@@ -52,7 +52,13 @@ const LATE: Actuation = Actuation {
     ..PROMPT
 };
 
-const IDEAL: Drivetrain = Drivetrain { engagement: Engagement::Ideal, flywheel: NO_LOSSES, rack: NO_RACK, actuation: PROMPT };
+const IDEAL: Drivetrain = Drivetrain {
+    engagement: Engagement::Ideal,
+    flywheel: NO_LOSSES,
+    rack: NO_RACK,
+    actuation: PROMPT,
+    support: Support { amplification: 1.0 },
+};
 const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
 const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0 };
 const PROMPT: Actuation = Actuation {

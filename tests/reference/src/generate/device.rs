@@ -40,6 +40,7 @@ pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str
         "elastic",
         "elastic",
     ]);
+    let start = text.len();
     text.push_str("\n[[device]]\n");
     if family == "none" {
         text.push_str("kind = \"none\"\n");
@@ -94,6 +95,15 @@ pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str
     }
     if random.chance(0.2) {
         weight(text, random, corners, site);
+    }
+    let loses = ["flywheel = {", "rack = {"].iter().any(|table| text[start..].contains(table));
+    if !memory && !corners && !loses {
+        // Draws of its own, so that all others stay what they were.
+        let mut own = *random;
+        own = Random::new(own.next_u64());
+        if own.chance(0.5) {
+            let _ = writeln!(text, "support_amplification = {}", own.between(-0.5, 2.5));
+        }
     }
     family
 }

@@ -20,7 +20,7 @@ const SIGMA: f64 = 0.5;
 const RACK: f64 = 0.02;
 
 fn checks(structure: &Structure, clutching: Clutching, rack_mass_ratio: f64) -> Checks<f64> {
-    let account = Account { clutching, mass_ratio: SIGMA, rack_mass_ratio };
+    let account = Account { clutching, mass_ratio: SIGMA, rack_mass_ratio, support: 0.0 };
     Checks::new(&structure.block, structure.geometry, &structure.device.mount, &account).unwrap()
 }
 
@@ -113,6 +113,7 @@ fn a_jolt_keeps_the_momentum() {
             flywheel: FlywheelLosses { brake_deceleration: 5.0, ..FlywheelLosses::default() },
             rack: Rack { guided_mass_ratio: RACK, ..Rack::default() },
             actuation: Actuation { engagement_delay: 0.03, ..Actuation::default() },
+            ..Drivetrain::default()
         };
         let mut watchers = (checks(&shake.structure, Clutching::Rigid, RACK), Jolts::default());
         shake.watched(&drivetrain, &tight(), &mut watchers);

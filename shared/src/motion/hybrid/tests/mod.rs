@@ -7,6 +7,7 @@ mod ground;
 mod limits;
 mod methods;
 mod standing;
+mod support;
 
 use std::vec::Vec;
 
@@ -24,7 +25,7 @@ use crate::observers::peaks::Peaks;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack};
+use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use crate::structure::mount::Mount;
 use crate::structure::restitution::Restitution;
 use crate::structure::{REST_SPEED, Structure};
@@ -214,10 +215,11 @@ impl Shake {
 }
 
 /// Every kind of drivetrain, with losses where they belong.
-pub fn drivetrains() -> [(&'static str, Drivetrain); 7] {
+pub fn drivetrains() -> [(&'static str, Drivetrain); 8] {
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
     let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+    let guided = Rack { guided_mass_ratio: 0.02, ..Rack::default() };
     let of = |engagement, flywheel, rack| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };
     let elastic = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
     [
@@ -235,6 +237,10 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 7] {
         ),
         ("elastic with play", of(elastic(2e-3, f64::INFINITY), flywheel, rack)),
         ("elastic with play and plates", of(elastic(2e-3, 0.03), flywheel, rack)),
+        (
+            "ideal on a moving support",
+            Drivetrain { support: Support { amplification: 1.3 }, rack: guided, ..Drivetrain::default() },
+        ),
     ]
 }
 

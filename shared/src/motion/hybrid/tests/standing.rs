@@ -148,7 +148,7 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
     shake.pieces.push((sine(1.05 * threshold, core::f64::consts::PI), 0.55));
     shake.free_time = 0.0;
     let damped = Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY };
-    let account = Account { clutching: Clutching::Real, mass_ratio: 0.5, rack_mass_ratio: 0.0 };
+    let account = Account { clutching: Clutching::Real, mass_ratio: 0.5, ..Account::default() };
     for engagement in [Engagement::Friction { capacity_ratio: 0.01 }, damped] {
         let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
         let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
