@@ -1,7 +1,8 @@
 //! Many blocks under records at once: side by side where lanes know the device; the rest is left to [`crate::simulation`].
 
 use sprag_ensemble::hybrid::{HybridBlock, HybridMotion};
-use sprag_ensemble::machine::{Registers, shake};
+#[cfg(not(target_arch = "wasm32"))]
+use sprag_ensemble::machine::Registers;
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::motion::hybrid::HybridSystem;
@@ -109,7 +110,7 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
     // Neighbours of one kind go through the lanes together.
     ideal.sort_by_key(|(_, block)| (block.plain.geometry as u8, block.plain.device as u8));
     let blocks: Vec<ShakenBlock<'_>> = ideal.iter().map(|(_, block)| *block).collect();
-    for ((index, block), shaken) in ideal.iter().zip(shake(&blocks, Registers::Widest)) {
+    for ((index, block), shaken) in ideal.iter().zip(shaken(&blocks)) {
         let scene = &runs[*index].0.scene;
         let (structure, duration) = (scene.structure(0), block.samples.duration());
         let after = |shaken: Shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok();
@@ -129,13 +130,25 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
     found
 }
 
+/// Motions of ideal devices in lanes.
+#[cfg(not(target_arch = "wasm32"))]
+fn shaken(blocks: &[ShakenBlock<'_>]) -> Vec<Option<Shaken>> {
+    sprag_ensemble::machine::shake(blocks, Registers::Widest)
+}
+
 /// Motions of real devices in lanes.
 #[cfg(not(target_arch = "wasm32"))]
 fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
     sprag_ensemble::machine::shake_hybrid(blocks, Registers::Widest)
 }
 
-/// A page has no lanes for real devices, which would be much of its size.
+/// A page has no lanes for records, which would be much of its size.
+#[cfg(target_arch = "wasm32")]
+fn shaken(blocks: &[ShakenBlock<'_>]) -> Vec<Option<Shaken>> {
+    vec![None; blocks.len()]
+}
+
+/// Nor for real devices.
 #[cfg(target_arch = "wasm32")]
 fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
     vec![None; blocks.len()]
