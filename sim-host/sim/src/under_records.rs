@@ -1,8 +1,7 @@
 //! Many blocks under records at once: side by side where lanes know the device; the rest is left to [`crate::simulation`].
 
 use sprag_ensemble::hybrid::{HybridBlock, HybridMotion};
-#[cfg(not(target_arch = "wasm32"))]
-use sprag_ensemble::machine::Registers;
+use sprag_ensemble::machine::{Registers, shake, shake_hybrid};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::motion::hybrid::HybridSystem;
@@ -90,6 +89,10 @@ fn checks(scene: &Scene) -> Option<Checks<f64>> {
 /// What becomes of each subject under its record and in the free time of its scene, in their order; `None` for those that the core is to follow.
 /// No result depends on the others.
 pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
+    // A page has no lanes for records: they would be much of its size.
+    if cfg!(target_arch = "wasm32") {
+        return vec![None; runs.len()];
+    }
     let (mut ideal, mut real) = (Vec::new(), Vec::new());
     for (index, (subject, Shaking { level: (samples, factor), vertical })) in runs.iter().enumerate() {
         let (samples, factor, vertical) = (*samples, *factor, *vertical);
@@ -110,14 +113,14 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
     // Neighbours of one kind go through the lanes together.
     ideal.sort_by_key(|(_, block)| (block.plain.geometry as u8, block.plain.device as u8));
     let blocks: Vec<ShakenBlock<'_>> = ideal.iter().map(|(_, block)| *block).collect();
-    for ((index, block), shaken) in ideal.iter().zip(shaken(&blocks)) {
+    for ((index, block), shaken) in ideal.iter().zip(shake(&blocks, Registers::Widest)) {
         let scene = &runs[*index].0.scene;
         let (structure, duration) = (scene.structure(0), block.samples.duration());
         let after = |shaken: Shaken| shaken.after(&block.plain, &structure, duration, scene.free_time_s()).ok();
         found[*index] = shaken.and_then(after).map(|motion| Followed { motion, demand: None });
     }
     let blocks: Vec<HybridBlock<'_>> = real.iter().map(|(_, block)| *block).collect();
-    for ((index, block), moved) in real.iter().zip(moved(&blocks)) {
+    for ((index, block), moved) in real.iter().zip(shake_hybrid(&blocks, Registers::Widest)) {
         let scene = &runs[*index].0.scene;
         let heavier = 1.0 + scene.devices[0].added_mass.mass_ratio;
         let demand = |moved: &HybridMotion| {
@@ -128,28 +131,4 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
         found[*index] = ended.map(|moved| Followed { motion: Shaken::from(moved), demand: demand(&moved) });
     }
     found
-}
-
-/// Motions of ideal devices in lanes.
-#[cfg(not(target_arch = "wasm32"))]
-fn shaken(blocks: &[ShakenBlock<'_>]) -> Vec<Option<Shaken>> {
-    sprag_ensemble::machine::shake(blocks, Registers::Widest)
-}
-
-/// Motions of real devices in lanes.
-#[cfg(not(target_arch = "wasm32"))]
-fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
-    sprag_ensemble::machine::shake_hybrid(blocks, Registers::Widest)
-}
-
-/// A page has no lanes for records, which would be much of its size.
-#[cfg(target_arch = "wasm32")]
-fn shaken(blocks: &[ShakenBlock<'_>]) -> Vec<Option<Shaken>> {
-    vec![None; blocks.len()]
-}
-
-/// Nor for real devices.
-#[cfg(target_arch = "wasm32")]
-fn moved(blocks: &[HybridBlock<'_>]) -> Vec<Option<HybridMotion>> {
-    vec![None; blocks.len()]
 }
