@@ -4,6 +4,7 @@ use sprag_shared::control::law::turn_taking::AHEAD;
 use sprag_shared::drivetrain::any_transmission::TransmissionKind;
 use sprag_shared::equation::any_body::AnyBody;
 use sprag_shared::equation::body::Body;
+use sprag_shared::equation::first_integral::{FirstIntegral, FullIntegral, SlenderIntegral};
 use sprag_shared::math;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::structure::block::Geometry;
@@ -111,42 +112,26 @@ impl Rocker {
         self.geometry.point_of_no_return(self.slenderness, bound)
     }
 
-    /// Largest |θ| (rad) from here on of a block that stands, or that on quiet ground and with its flywheels released never reaches its tip (first
-    /// integral of Eq. 2 and 17): outward to its turn, inward to that after the next impact. None for any other block.
+    /// Largest |θ| (rad) from here on of a block that stands, or that on quiet ground and with its flywheels released never reaches its tip
+    /// ([`FirstIntegral`]): outward to its turn, inward to that after the next impact. None for any other block.
     pub fn settles_at(&self, place: &Place) -> Option<f64> {
-        if place.standing {
-            return Some(place.peak);
+        match self.geometry {
+            _ if place.standing => Some(place.peak),
+            Geometry::Full => self.turns_at(&FullIntegral { coupling: 0.0 }, place),
+            Geometry::Slender => self.turns_at(&SlenderIntegral { inertia: 1.0 }, place),
         }
+    }
+
+    fn turns_at(&self, integral: &impl FirstIntegral, place: &Place) -> Option<f64> {
         let alpha = self.slenderness;
         let left = alpha - place.rotation.abs();
-        let kinetic = 0.5 * place.velocity * place.velocity / self.frequency_squared;
-        let short = self.rise(left) - kinetic;
-        if left <= 0.0 || short <= 0.0 {
-            return None;
+        let squared = place.velocity * place.velocity / self.frequency_squared;
+        let mut turn = integral.turn(left, squared).filter(|_| left > 0.0)?;
+        if place.side * place.velocity <= 0.0 {
+            let kept = self.restitution * self.restitution;
+            turn = integral.turn(alpha, kept * integral.squared_speed(left, squared, alpha))?;
         }
-        let kept = self.restitution * self.restitution;
-        let outward = place.side * place.velocity > 0.0;
-        let short = if outward { short } else { self.rise(alpha) - kept * (self.rise(alpha) - short) };
-        Some(place.peak.max(alpha - self.of_rise(short)))
-    }
-
-    /// What the weight's energy rises by, over its p² per rad, from q = α − |θ| to the tip: 1 − cos q, of the slender block ½q².
-    fn rise(&self, q: f64) -> f64 {
-        match self.geometry {
-            Geometry::Full => {
-                let half = math::sin(0.5 * q);
-                2.0 * half * half
-            }
-            Geometry::Slender => 0.5 * q * q,
-        }
-    }
-
-    /// q of a [`Rocker::rise`].
-    fn of_rise(&self, rise: f64) -> f64 {
-        match self.geometry {
-            Geometry::Full => 2.0 * math::asin(math::square_root(0.5 * rise)),
-            Geometry::Slender => math::square_root(2.0 * rise),
-        }
+        Some(place.peak.max(alpha - turn))
     }
 
     /// Flywheel `index` may be put on the rack: it does not run ahead, so that it would drive the block. That is the rule of the controller's
