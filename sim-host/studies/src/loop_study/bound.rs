@@ -162,9 +162,6 @@ pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     let recorded = Records::new(records)?;
     let base = Setting::base();
     let alpha = base.slenderness_deg.to_radians();
-    let of_records = |motions: Vec<Motion>| {
-        (!motions.is_empty()).then(|| Kind { name: "records".to_owned(), motions, different: recorded.count() })
-    };
     let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
     let mut report = Report::new("bound", "What a clutch law can do at best");
     report.paragraph(&format!(
@@ -192,7 +189,7 @@ pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     report.section("Ideal model");
     let bench = Bench { setting: &base, ideal: true, specimens: 1, progress, conditions };
     let mut kinds = families(|family| family.grid(CELLS, FREQUENCIES, AMPLITUDES));
-    kinds.extend(of_records(recorded.at_each(&THRESHOLDS, alpha)));
+    kinds.extend(Kind::of_records(&recorded, recorded.at_each(&THRESHOLDS, alpha)));
     let ideal = fates(&bench, &kinds, None)?;
     report.table("bound-ideal", counts(&kinds, &ideal));
     report.paragraph("Median peak |θ|/α under the motions of which one of the first three keeps the block standing.");
@@ -205,7 +202,7 @@ pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
          specimen of its own. The bound needs no sensors and knows when to command, so that no delay is in it.",
     );
     let mut kinds = families(|family| family.spread(PULSES, FREQUENCIES, AMPLITUDES));
-    kinds.extend(of_records(recorded.at_turns(&THRESHOLDS, alpha)));
+    kinds.extend(Kind::of_records(&recorded, recorded.at_turns(&THRESHOLDS, alpha)));
     let mut braked: Option<Vec<Vec<Fate>>> = None;
     for (number, setting) in Setting::clutches().iter().enumerate() {
         let bench = Bench { setting, ideal: false, specimens: PULSES, progress, conditions };

@@ -50,6 +50,13 @@ pub(super) struct Kind {
     pub(super) different: usize,
 }
 
+impl Kind {
+    /// `recorded` motions at some scales, if there are any.
+    pub(super) fn of_records(recorded: &Records<'_>, motions: Vec<Motion>) -> Option<Kind> {
+        (!motions.is_empty()).then(|| Kind { name: "records".to_owned(), motions, different: recorded.count() })
+    }
+}
+
 pub(super) fn families(motions: impl Fn(Family) -> Vec<Motion>) -> Vec<Kind> {
     let of = |&family: &Family| {
         let motions = motions(family);
@@ -160,9 +167,6 @@ fn best(tallies: &[Tally]) -> String {
 /// [`StudyError`].
 pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let recorded = Records::new(records)?;
-    let of_records = |motions: Vec<Motion>| {
-        (!motions.is_empty()).then(|| Kind { name: "records".to_owned(), motions, different: recorded.count() })
-    };
     let base = Setting::base();
     let alpha = |setting: &Setting| setting.slenderness_deg.to_radians();
     let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
@@ -193,7 +197,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     );
     let bench = Bench { setting: &base, ideal: true, specimens: 1, progress, conditions };
     let mut kinds = families(|family| family.grid(CELLS, FREQUENCIES, AMPLITUDES));
-    kinds.extend(of_records(recorded.at_each(&THRESHOLDS, alpha(&base))));
+    kinds.extend(Kind::of_records(&recorded, recorded.at_each(&THRESHOLDS, alpha(&base))));
     let outcomes = bench.outcomes(&kinds)?;
     let tallies = bench.tallies(&outcomes);
     report.table("laws-ideal", by_law(&kinds, &tallies, |tallies, law| tallies[law].count().to_string()));
@@ -204,7 +208,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     report.paragraph("Change of the number of overturned blocks, in percent, from the best of bare block, inerter and Eq. 10.");
     let few = |setting: &Setting| {
         let mut kinds = families(|family| family.grid(FEW_CELLS, FREQUENCIES, AMPLITUDES));
-        kinds.extend(of_records(recorded.at_turns(&THRESHOLDS, alpha(setting))));
+        kinds.extend(Kind::of_records(&recorded, recorded.at_turns(&THRESHOLDS, alpha(setting))));
         kinds
     };
     let mut table = headings(&["block or device", "law"], &few(&base));
@@ -225,7 +229,7 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
          percent, and difference to Eq. 10 in percentage points, with 95 % bands over the specimens."
     ));
     let mut kinds = families(|family| family.spread(SPECIMENS * PULSES, FREQUENCIES, AMPLITUDES));
-    kinds.extend(of_records(recorded.at_each(&THRESHOLDS, alpha(&base))));
+    kinds.extend(Kind::of_records(&recorded, recorded.at_each(&THRESHOLDS, alpha(&base))));
     for (number, setting) in Setting::clutches().iter().enumerate() {
         let bench = Bench { setting, ideal: false, specimens: SPECIMENS, progress, conditions };
         let tallies = bench.tallies(&bench.outcomes(&kinds)?);
