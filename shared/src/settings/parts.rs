@@ -11,6 +11,7 @@ use crate::control::estimation::kalman::Kalman;
 use crate::control::estimation::model_aided::ModelAided;
 use crate::control::estimation::rest_detection::Standing;
 use crate::control::law::any_law::ClutchLaw;
+use crate::control::law::costate::Costate;
 use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
 use crate::control::law::{GatedTable, SignTable};
@@ -221,6 +222,15 @@ parts! {
         margin: Item::LawMargin,
         base: Own,
     }
+    Costate {
+        rotation: Item::LawRotation,
+        curvature: Item::LawCurvature,
+        ground: Item::LawGround,
+        drift: Item::LawDrift,
+        jolt: Item::LawJolt,
+        take: Item::LawTake,
+        keep: Item::LawKeep,
+    }
     Gate { dwell: Item::Dwell }
     ClutchLag { closing: Item::ClosingLag, opening: Item::OpeningLag, closing_time: Item::ClosingTime }
     Horizons { engagement: Item::Horizon, release: Item::ReleaseHorizon }
@@ -316,7 +326,8 @@ macro_rules! choices {
 choices! {
     Estimator by Item::Estimator => { 0 ModelAided(own), 1 Kalman(own), ; 2 Complementary(own) }
     ClutchLaw by Item::Law => {
-        0 Passive, 1 AlwaysEngaged, 2 Resisting, 3 ResistingPredicted, 4 SignTable(own), 5 GatedTable(own), ; 6 LookAhead(own)
+        0 Passive, 1 AlwaysEngaged, 2 Resisting, 3 ResistingPredicted, 4 SignTable(own), 5 GatedTable(own), 6 LookAhead(own), ;
+        7 Costate(own)
     }
 }
 

@@ -47,6 +47,7 @@ const COMPLEMENTARY: Use = Use::Estimators(0b100);
 const TABLES: Use = Use::Laws(0b111_0000);
 const GATED: Use = Use::Laws(0b110_0000);
 const LOOK_AHEAD: Use = Use::Laws(0b100_0000);
+const COSTATE: Use = Use::Laws(0b1000_0000);
 const AXES: Description = choice(&["+x", "-x", "+y", "-y", "+z", "-z"], 0).only(Use::Board);
 
 /// Of numbers that nothing but their meaning bounds.
@@ -129,7 +130,7 @@ parameters! {
     DeviationGround "estimator.deviation.ground" not_negative("g", 0.001_329_863);
 
     Law "law" choice(
-        &["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead"],
+        &["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"],
         3,
     );
     LawTable "law.table" whole("", 0, 255, 0b0100_1110).only(TABLES);
@@ -140,6 +141,13 @@ parameters! {
     LawFading "law.fading" real("", 0.0, 1.0, 0.716_531_3).only(LOOK_AHEAD);
     LawFadingHalf "law.fading_half" real("", 0.0, 1.0, 0.846_481_7).only(LOOK_AHEAD);
     LawMargin "law.margin" real("", -10.0, 10.0, 0.014).only(LOOK_AHEAD);
+    LawRotation "law.rotation" real("", -10.0, 10.0, 0.3).only(COSTATE);
+    LawCurvature "law.curvature" real("", -10.0, 10.0, 0.04).only(COSTATE);
+    LawGround "law.ground" real("", -10.0, 10.0, -0.29).only(COSTATE);
+    LawDrift "law.drift" real("", -10.0, 10.0, 0.57).only(COSTATE);
+    LawJolt "law.jolt" real("", -10.0, 10.0, -0.12).only(COSTATE);
+    LawTake "law.take" real("", -10.0, 10.0, -1.0).only(COSTATE);
+    LawKeep "law.keep" real("", -10.0, 10.0, 0.03).only(COSTATE);
 
     Horizon "controller.horizon" span(1.0, 0.005_25);
     ReleaseHorizon "controller.release_horizon" span(1.0, 0.005_25);

@@ -12,6 +12,7 @@ use crate::control::estimation::kalman::Kalman;
 use crate::control::estimation::model_aided::ModelAided;
 use crate::control::estimation::rest_detection::Standing;
 use crate::control::law::any_law::ClutchLaw;
+use crate::control::law::costate::Costate;
 use crate::control::law::look_ahead::LookAhead;
 use crate::control::law::minimum_dwell::Gate;
 use crate::control::model::Model;
@@ -86,6 +87,13 @@ fn laws() -> Vec<ClutchLaw> {
         (Item::LawFading, 0.7),
         (Item::LawFadingHalf, 0.8),
         (Item::LawMargin, 0.02_f32),
+        (Item::LawRotation, 0.2),
+        (Item::LawCurvature, 0.6),
+        (Item::LawGround, -0.3),
+        (Item::LawDrift, 0.9),
+        (Item::LawJolt, 0.5),
+        (Item::LawTake, -0.1),
+        (Item::LawKeep, 0.1),
     ];
     let wholes = [(Item::LawTable, 0b1001_0110), (Item::LawRow, 3), (Item::LawChosen, 4)];
     for (item, word) in reals.map(|(item, value)| (item, value.to_bits())).into_iter().chain(wholes) {
@@ -198,12 +206,12 @@ fn the_default_is_the_controller_of_an_example() {
         assert_eq!(derived, default, "{item:?} is {:?}", description.show(derived).to_string());
     }
     assert_eq!(Controller::of(&Settings::default()), Ok(example));
-    let look_ahead = LookAhead::default();
-    let law = ClutchLaw::LookAhead(look_ahead);
-    assert_eq!(
-        Settings::of(&Controller { law, ..example }, &supervision).unwrap().words()[Item::LawStep as usize..][..5].to_vec(),
-        { settings.words()[Item::LawStep as usize..][..5].to_vec() }
-    );
+    let own = |law, first: Item, count: usize| {
+        let derived = Settings::of(&Controller { law, ..example }, &supervision).unwrap();
+        assert_eq!(derived.words()[first as usize..][..count], settings.words()[first as usize..][..count], "{law:?}");
+    };
+    own(ClutchLaw::LookAhead(LookAhead::default()), Item::LawStep, 5);
+    own(ClutchLaw::Costate(Costate::TRAINED), Item::LawRotation, 7);
 }
 
 /// Every body by every estimator, law and supervision, and what `check` makes of its settings.

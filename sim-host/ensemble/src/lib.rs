@@ -8,10 +8,14 @@
 //!
 //! A package of its own because it is built three times over, once for each kind of registers: what depends on it is not.
 
+// Unit tests are of the parts: what asks for all of them takes long to build, and `tests/tests/motion/lanes_*.rs` test it.
+#![cfg_attr(test, allow(dead_code))]
+
 pub mod after_record;
 pub mod alone;
 pub mod blocks;
 pub mod hybrid;
+#[cfg(not(test))]
 pub mod machine;
 pub mod model;
 pub mod plain;

@@ -6,7 +6,7 @@
 
 use std::marker::PhantomData;
 
-#[cfg(all(target_arch = "x86_64", not(test)))]
+#[cfg(target_arch = "x86_64")]
 use pulp::Arch;
 use pulp::NullaryFnOnce;
 use sprag_shared::equation::body::{FullBody, SlenderBody};
@@ -90,8 +90,7 @@ fn go<W: Work, M: Model, const PAIR: bool>(work: W, registers: Registers) -> W::
 fn built_for<F: NullaryFnOnce>(registers: Registers, resolved: F) -> F::Output {
     match registers {
         // Not `Arch::dispatch`: its way without wide registers would be a second copy of the one below.
-        // No unit test asks for registers (`tests/tests/motion/lanes_*.rs` do), and every kind takes as long to build.
-        #[cfg(all(target_arch = "x86_64", not(test)))]
+        #[cfg(target_arch = "x86_64")]
         Registers::Widest => match Arch::new() {
             Arch::V4(registers) => registers.vectorize(resolved),
             Arch::V3(registers) => registers.vectorize(resolved),

@@ -1,5 +1,6 @@
 //! A clutch law chosen at run time.
 
+use super::costate::Costate;
 use super::look_ahead::LookAhead;
 use super::{AlwaysEngaged, GatedTable, Law, Passive, Resisting, SignTable, Situation, Wish};
 
@@ -20,6 +21,8 @@ pub enum ClutchLaw {
     GatedTable(GatedTable),
     /// [`LookAhead`].
     LookAhead(LookAhead),
+    /// [`Costate`].
+    Costate(Costate),
 }
 
 impl Law for ClutchLaw {
@@ -33,13 +36,18 @@ impl Law for ClutchLaw {
             ClutchLaw::SignTable(table) => table.wish(at),
             ClutchLaw::GatedTable(table) => table.wish(at),
             ClutchLaw::LookAhead(law) => law.wish(at),
+            ClutchLaw::Costate(law) => law.wish(at),
         }
     }
 
     fn predicts(&self) -> bool {
         match self {
             ClutchLaw::Passive | ClutchLaw::AlwaysEngaged | ClutchLaw::Resisting => false,
-            ClutchLaw::ResistingPredicted | ClutchLaw::SignTable(_) | ClutchLaw::GatedTable(_) | ClutchLaw::LookAhead(_) => true,
+            ClutchLaw::ResistingPredicted
+            | ClutchLaw::SignTable(_)
+            | ClutchLaw::GatedTable(_)
+            | ClutchLaw::LookAhead(_)
+            | ClutchLaw::Costate(_) => true,
         }
     }
 }

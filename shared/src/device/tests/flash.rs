@@ -5,7 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 /// Room for two copies of the settings, so that it is soon full.
-const SECTOR: usize = 1056;
+const SECTOR: usize = 1120;
 
 /// Two sectors, written in words.
 #[derive(Clone, Debug, PartialEq, Eq)]

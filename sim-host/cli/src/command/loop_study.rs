@@ -16,6 +16,7 @@ use sprag_studies::loop_study::laws::laws;
 use sprag_studies::loop_study::motion::Motion;
 use sprag_studies::loop_study::practice::practice;
 use sprag_studies::loop_study::robustness::robustness;
+use sprag_studies::loop_study::train::train;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
@@ -36,6 +37,8 @@ pub enum Study {
     Laws,
     /// What a law that knew the ground motion would do, and how much of it each law does.
     Bound,
+    /// Weights of the law costate, by random pulses and the records.
+    Train,
     /// How often and how late clutches are wrong: estimators by sensors by delays.
     Decisions,
     /// Delay, noise, rate and wrong beliefs.
@@ -108,6 +111,7 @@ impl Run for LoopStudyArguments {
                 Study::Practice => practice(&records, &progress, &conditions),
                 Study::Laws => laws(&records, &progress, &conditions),
                 Study::Bound => bound(&records, &progress, &conditions),
+                Study::Train => train(&records, &progress, &conditions),
                 Study::Decisions => decisions(&records, &progress, &conditions),
                 Study::Robustness => robustness(&records, &progress, &conditions),
                 Study::Faults => faults(&progress, &conditions),

@@ -43,6 +43,9 @@ enum Wheels {
 /// Which flywheels are on the rack.
 pub type Engaged = [bool; 2];
 
+/// None of them.
+pub(super) const OPEN: Engaged = [false; 2];
+
 /// Where a block with its device is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {

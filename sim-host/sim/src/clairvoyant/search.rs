@@ -8,9 +8,8 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::hash::{BuildHasherDefault, Hasher};
 
-use sprag_shared::ground::GroundSegment;
-
-use super::rocker::{Engaged, Place, Rocker};
+use super::rocker::{Engaged, OPEN, Place, Rocker};
+use super::shaking::Shaking;
 use crate::ground_motion::GroundMotion;
 
 /// How finely it is searched.
@@ -47,7 +46,6 @@ pub struct Found {
 /// How long after the ground motion the clutches still decide, 1/p.
 const AFTERWARDS: f64 = 3.0;
 
-const OPEN: Engaged = [false; 2];
 const FIRST: Engaged = [true, false];
 const SECOND: Engaged = [false, true];
 
@@ -72,7 +70,7 @@ pub fn search(rocker: &Rocker, ground: &GroundMotion, grid: &Grid) -> Found {
                 }
                 let mut next = place;
                 rocker.engage(&mut next, choice);
-                if !follow(rocker, &mut next, part.ground, shaking.step, limit) {
+                if !follow(rocker, &mut next, part.ground, shaking.step(), limit) {
                     continue;
                 }
                 match kept.entry(key(rocker, &next, grid)) {
@@ -144,49 +142,6 @@ fn key(rocker: &Rocker, place: &Place, grid: &Grid) -> u64 {
         key = key << 2 | u64::from(place.engaged[0]) << 1 | u64::from(place.engaged[1]);
     }
     key
-}
-
-/// Ground accelerations in the middle of every step.
-struct Shaking {
-    ground: Vec<f64>,
-    /// Bound from each step on.
-    bounds: Vec<f64>,
-    step: f64,
-    steps: usize,
-}
-
-/// One decision's.
-struct Part<'a> {
-    ground: &'a [f64],
-    /// From its beginning on.
-    bound: f64,
-    /// Nothing moves any more after it.
-    quiet: bool,
-}
-
-impl Shaking {
-    fn of(motion: &GroundMotion, interval: f64, steps: u32, afterwards: f64) -> Shaking {
-        let step = interval / f64::from(steps);
-        let intervals = ((motion.duration() + afterwards) / interval).ceil() as usize;
-        let mut segments = motion.segments().iter().peekable();
-        let mut at = |time: f64| {
-            while segments.next_if(|segment| segment.start + segment.duration <= time).is_some() {}
-            segments.peek().map_or(0.0, |segment| segment.shape.acceleration(time - segment.start))
-        };
-        let ground: Vec<f64> = (0..intervals * steps as usize).map(|index| at((index as f64 + 0.5) * step)).collect();
-        let mut bounds = vec![0.0; ground.len() + 1];
-        for index in (0..ground.len()).rev() {
-            bounds[index] = ground[index].abs().max(bounds[index + 1]);
-        }
-        Shaking { ground, bounds, step, steps: steps as usize }
-    }
-
-    fn parts(&self) -> impl Iterator<Item = Part<'_>> {
-        self.ground.chunks(self.steps).enumerate().map(|(index, ground)| {
-            let start = index * self.steps;
-            Part { ground, bound: self.bounds[start], quiet: self.bounds[start + ground.len()] == 0.0 }
-        })
-    }
 }
 
 /// Hash of one number, the same everywhere.

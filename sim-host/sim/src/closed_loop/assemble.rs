@@ -3,6 +3,7 @@
 use sprag_shared::control::clutch_position::ClutchLag;
 use sprag_shared::control::controller::{Controller, Horizons};
 use sprag_shared::control::law::any_law::ClutchLaw;
+use sprag_shared::control::law::costate::Costate;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
@@ -88,6 +89,7 @@ impl ControllerTable {
             LawName::SignTable => ClutchLaw::SignTable(self.sign_table.map_or(SignTable::EITHER, SignTable)),
             LawName::GatedTable => ClutchLaw::GatedTable(GatedTable::DEFAULT),
             LawName::LookAhead => ClutchLaw::LookAhead(LookAhead::default()),
+            LawName::Costate => ClutchLaw::Costate(Costate::TRAINED),
         }
     }
 }

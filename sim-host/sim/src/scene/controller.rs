@@ -54,11 +54,13 @@ pub enum LawName {
     GatedTable,
     /// The safer of engaging and releasing, by the equation of motion.
     LookAhead,
+    /// Eq. 10 with the costate of optimal control, linear in what the controller knows, in the place of the velocity.
+    Costate,
 }
 
 impl LawName {
     /// All of them.
-    pub const ALL: [LawName; 7] = [
+    pub const ALL: [LawName; 8] = [
         LawName::Passive,
         LawName::AlwaysEngaged,
         LawName::Resisting,
@@ -66,6 +68,7 @@ impl LawName {
         LawName::SignTable,
         LawName::GatedTable,
         LawName::LookAhead,
+        LawName::Costate,
     ];
 
     /// As scenes spell it.
@@ -78,6 +81,7 @@ impl LawName {
             LawName::SignTable => "sign-table",
             LawName::GatedTable => "gated-table",
             LawName::LookAhead => "look-ahead",
+            LawName::Costate => "costate",
         }
     }
 }

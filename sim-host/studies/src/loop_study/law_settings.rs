@@ -44,7 +44,7 @@ impl Setting {
 
     /// The base with clutches as they are: `delay_ms` from sample to clutch, of which 1 ms is the controller's; released flywheels are
     /// braked at 2 m/s² or coast.
-    fn clutch(delay_ms: f64, braked: bool) -> Setting {
+    pub(super) fn clutch(delay_ms: f64, braked: bool) -> Setting {
         let mut overrides = vec![
             "device.0.engagement=\"rigid\"".to_owned(),
             "device.0.flywheel.viscous_rate_1_s=0.05".to_owned(),

@@ -3,24 +3,24 @@
 use sprag_report::plot::{Cell, CellMap, CellMaps, Class, Scale, cell_map_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
-use sprag_shared::control::law::Law;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::LawName;
 
-use super::bench::{Conditions, StudyError, Variant, all, run_ideal, run_loop, with_loop};
+use super::bench::{Conditions, StudyError, Variant, all, run_ideal, run_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
 use super::tally::{Pairs, Tally, fewest};
 
 /// Laws in the order of the tables: without decisions, Eq. 10, and beyond.
-pub(super) const LAWS: [LawName; 6] = [
+pub(super) const LAWS: [LawName; 7] = [
     LawName::Passive,
     LawName::AlwaysEngaged,
     LawName::ResistingPredicted,
     LawName::SignTable,
     LawName::GatedTable,
     LawName::LookAhead,
+    LawName::Costate,
 ];
 /// Of these, the plain choices.
 pub(super) const PLAIN: usize = 3;
@@ -101,17 +101,6 @@ impl Bench<'_> {
         variant.seed = 1 + specimen as u64;
         let result = run_loop(motion, &variant, self.conditions)?;
         Ok((result.outcome, result.peak))
-    }
-
-    /// Peak |θ|/α by a law that no scene can name; infinite of a block that overturns.
-    pub(super) fn peak_by<L: Law + Copy + 'static>(&self, law: L, motion: &Motion, specimen: usize) -> Result<f64, StudyError> {
-        let mut variant = self.variant();
-        variant.seed = 1 + specimen as u64;
-        with_loop(motion, &variant, self.conditions, |task| {
-            let (_, _, looped) = task.answered_by::<(), L>(|| law)?;
-            let peak = looped.extremes.peaks.rotation / task.scene.block.slenderness();
-            Ok(if looped.outcome().overturned() { f64::INFINITY } else { peak })
-        })
     }
 
     /// Outcomes by kind, law and motion; motion i is shaken by specimen i mod their number.

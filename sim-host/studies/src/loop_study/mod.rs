@@ -2,7 +2,6 @@
 
 pub mod bench;
 pub mod bound;
-pub mod costate;
 pub mod decisions;
 pub mod faults;
 pub mod ideal_limit;
@@ -14,3 +13,4 @@ pub mod practice;
 pub mod report;
 pub mod robustness;
 pub mod tally;
+pub mod train;

@@ -147,7 +147,7 @@ impl Family {
     }
 }
 
-fn between((from, to): (f64, f64), part: f64) -> f64 {
+pub(super) fn between((from, to): (f64, f64), part: f64) -> f64 {
     from + (to - from) * part
 }
 

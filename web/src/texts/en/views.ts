@@ -78,6 +78,7 @@ export const views = {
       "sign-table": "table of signs",
       "gated-table": "gated table of signs",
       "look-ahead": "look-ahead",
+      costate: "costate",
     },
     estimator: "Estimator",
     estimators: { "model-aided": "model-aided", kalman: "Kalman filter", complementary: "complementary filter" },

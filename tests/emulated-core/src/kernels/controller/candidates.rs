@@ -11,6 +11,7 @@ use sprag_shared::control::estimation::kalman::Kalman;
 use sprag_shared::control::estimation::model_aided::ModelAided;
 use sprag_shared::control::estimation::rest_detection::Standing;
 use sprag_shared::control::law::any_law::ClutchLaw;
+use sprag_shared::control::law::costate::Costate;
 use sprag_shared::control::law::look_ahead::LookAhead;
 use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, SignTable};
@@ -111,7 +112,7 @@ const fn candidate(name: &'static str, estimator: Estimator, law: ClutchLaw) -> 
 }
 
 /// On an ideal pair.
-pub fn ideal() -> [Candidate; 7] {
+pub fn ideal() -> [Candidate; 8] {
     [
         candidate("model-aided", MODEL_AIDED, ClutchLaw::ResistingPredicted),
         candidate("kalman", KALMAN, ClutchLaw::ResistingPredicted),
@@ -120,14 +121,16 @@ pub fn ideal() -> [Candidate; 7] {
         candidate("sign-table", MODEL_AIDED, ClutchLaw::SignTable(SignTable::EITHER)),
         candidate("gated-table", MODEL_AIDED, ClutchLaw::GatedTable(GatedTable::DEFAULT)),
         candidate("look-ahead", MODEL_AIDED, ClutchLaw::LookAhead(LookAhead::default())),
+        candidate("costate", MODEL_AIDED, ClutchLaw::Costate(Costate::TRAINED)),
     ]
 }
 
 /// On a pair whose flywheels keep spinning, in the consistent kinematics.
-pub fn spinning() -> [Candidate; 2] {
+pub fn spinning() -> [Candidate; 3] {
     [
         candidate("spinning", MODEL_AIDED, ClutchLaw::ResistingPredicted),
         candidate("spinning-look-ahead", MODEL_AIDED, ClutchLaw::LookAhead(LookAhead::default())),
+        candidate("spinning-costate", MODEL_AIDED, ClutchLaw::Costate(Costate::TRAINED)),
     ]
 }
 
