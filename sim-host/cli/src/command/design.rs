@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use sprag_report::output::{ResultFolder, Subject};
+use sprag_report::output::{Claim, ResultFolder, Subject};
 use sprag_report::progress::Progress;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
@@ -100,12 +100,14 @@ impl BasisArguments {
     }
 }
 
-/// Scene and basis as resolved.
+/// Scene and basis as resolved, and which devices.
 #[derive(Clone, Copy, Serialize)]
 struct Input<'a> {
     #[serde(flatten)]
     scene: SceneInput<'a>,
     basis: &'a Basis,
+    /// Devices that were asked for by name.
+    device: &'a [String],
 }
 
 /// What `summary.json` says of the runs.
@@ -151,14 +153,16 @@ fn designed(
     interrupt: &Interrupt,
 ) -> anyhow::Result<Designed> {
     let mut scene = arguments.scene.load(change)?;
-    let problem = Problem::new(&scene, &arguments.device, arguments.basis.basis(&scene))?;
-    drop(problem);
+    // What is wrong with the options is said before records are read.
+    Problem::new(&scene, &arguments.device, arguments.basis.basis(&scene))?;
     arguments.reading.apply(&mut scene)?;
     let files = |file: &PathBuf| RecordFiles { horizontal: file.clone(), vertical: None };
     let records: Vec<RecordFiles> = arguments.records.iter().map(files).collect();
     let read = ReadMotions::of(&scene, &records)?;
     let names = ["design", "parts", "motions", "delays", "delay"];
     let claim = claim_of_scene("design", &arguments.scene.scene, &scene, &scene.file, &names, &arguments.records)?;
+    let subject = claim.subject.with("basis", &arguments.basis.basis(&scene))?.with("device", &arguments.device)?;
+    let claim = Claim { subject, ..claim };
     // Where the results go is tried before the work, not after it.
     folder.open(&claim)?;
     let pool = arguments.threads.pool()?;
@@ -180,7 +184,7 @@ fn fill(
 ) -> anyhow::Result<()> {
     let Designed { scene, subject, read: ReadMotions { motions, errors }, findings } = designed;
     let problem = Problem::new(scene, &arguments.device, arguments.basis.basis(scene))?;
-    let input = Input { scene: SceneInput { scene: &scene.file }, basis: &problem.basis };
+    let input = Input { scene: SceneInput { scene: &scene.file }, basis: &problem.basis, device: &arguments.device };
     let Findings { lists, failed, left_out, worst } = findings;
     report.made_by(input)?;
     let answer = Answer { designs: lists, unreadable: errors, failed, left_out, accuracy: *worst };
@@ -195,7 +199,7 @@ fn fill(
         None => ["svg", "png"].into_iter().for_each(|ending| report.remove(&format!("delay.{ending}"))),
     }
     for list in lists {
-        report.print(format_args!("{}\n\n{}", verdict(list), lines(list).for_terminal()));
+        report.print(format_args!("{}\n\n{}\n", verdict(list), lines(list).for_terminal()));
     }
     report.left_out(left_out);
     report.accuracy(*worst);

@@ -5,8 +5,9 @@ use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, chart_
 
 use super::late::Late;
 use super::study::{Findings, PartsList, Problem};
+use super::table::figures;
 
-/// The picture; none where no clutch takes commands.
+/// The picture: the largest rotation over the motions under which the block stands without a delay, and how many overturn it; none where no clutch takes commands.
 ///
 /// # Errors
 /// The errors of [`chart_figure`].
@@ -22,14 +23,21 @@ pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Optio
         lines: findings.lists.iter().filter(known).map(|list| line(list, of)).filter(|line| !line.points.is_empty()).collect(),
         ..ChartPanel::default()
     };
+    let share = figures(100.0 * problem.basis.tolerance);
+    let most = |list: &PartsList| {
+        let tried = &list.delay.as_ref()?.tried;
+        let (first, last) = (tried.first()?, tried.last()?);
+        let allowed = (1.0 + problem.basis.tolerance) * first.largest_rotation?;
+        let points = vec![(0.0, allowed), (1e3 * last.delay_s, allowed)];
+        Some(Line { name: format!("{share} % more than without a delay"), points, guide: true, ..Line::default() })
+    };
     if !findings.lists.iter().any(|list| list.delay.is_some()) {
         return Ok(None);
     }
     let title = &problem.scene.file.title;
-    let panels = [
-        panel("largest rotation of those that stand, max |*θ*|/*α*", &|late| late.largest_rotation),
-        panel("motions that overturn", &|late| Some(late.overturned as f64)),
-    ];
+    let mut rotation = panel("largest rotation, max |*θ*|/*α*", &|late| late.largest_rotation);
+    rotation.lines.extend(findings.lists.iter().filter_map(most));
+    let panels = [rotation, panel("motions that overturn", &|late| Some(late.overturned as f64))];
     let chart = Chart {
         title: FigureTitle {
             text: if title.is_empty() { "Delay of the clutches".to_owned() } else { format!("{title}: delay of the clutches") },

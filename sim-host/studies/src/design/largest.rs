@@ -16,6 +16,8 @@ pub struct Largest {
     /// When, s; not a number (null in JSON) of a total over a run.
     #[serde(serialize_with = "finite")]
     pub time_s: f64,
+    /// Whether it is of the run with the chosen clutches.
+    pub chosen_clutches: bool,
 }
 
 fn finite<S: Serializer>(time: &f64, serializer: S) -> Result<S::Ok, S::Error> {
@@ -28,11 +30,17 @@ impl Largest {
     pub fn times(&self, factor: f64) -> Largest {
         Largest { value: factor * self.value, ..self.clone() }
     }
+
+    /// The larger of both; this one of equals.
+    #[must_use]
+    pub fn or_larger(self, other: Option<&Largest>) -> Largest {
+        other.filter(|other| other.value > self.value).cloned().unwrap_or(self)
+    }
 }
 
 /// The largest of `of` over what was `asked` under each of `motions`; of equals the first.
 pub fn largest(motions: &[StudyMotion], asked: &[Option<Asked>], of: impl Fn(&Asked) -> Option<Extreme<f64>>) -> Option<Largest> {
     let extremes = motions.iter().zip(asked).filter_map(|(motion, asked)| Some((motion, of(asked.as_ref()?)?)));
     let (motion, extreme) = extremes.reduce(|a, b| if b.1.value > a.1.value { b } else { a })?;
-    Some(Largest { value: extreme.value, motion: motion.name.clone(), time_s: extreme.time })
+    Some(Largest { value: extreme.value, motion: motion.name.clone(), time_s: extreme.time, chosen_clutches: false })
 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::SceneError;
 use sprag_sim::simulation::RunError;
 
 use super::subject::Subject;
@@ -19,7 +20,7 @@ pub const BISECTIONS: usize = 4;
 pub struct Late {
     /// By so much, s.
     pub delay_s: f64,
-    /// max |θ|/α over the motions in which it stands; null where there is none.
+    /// max |θ|/α over the motions in which it stands, without the delay too; null where there is none.
     pub largest_rotation: Option<f64>,
     /// Motions that overturn it.
     pub overturned: usize,
@@ -54,7 +55,7 @@ impl Allowed {
 
 /// Tries `subject`, which comes to `undelayed`, with later clutches: a delay is allowed while no motion overturns it that does not without a
 /// delay, and the largest rotation over the motions grows by no more than `tolerance`. Past the first delay that is not, nothing is allowed,
-/// for what a delay costs is not monotonic. In words why nobody knows.
+/// for what a delay costs is not monotonic. [`SceneError`] where the scene takes no delay.
 ///
 /// # Errors
 /// [`RunError::Interrupted`].
@@ -65,13 +66,13 @@ pub fn allowed(
     motions: &[StudyMotion],
     interrupt: &Interrupt,
     done: &(dyn Fn() + Sync),
-) -> Result<Result<Allowed, String>, RunError> {
+) -> Result<Result<Allowed, SceneError>, RunError> {
     let late = |delay_s: f64, answers: &[Option<Answer>]| compared(delay_s, answers, undelayed, tolerance);
     let mut tried = vec![late(0.0, undelayed)];
-    let follow = |delay_s: f64| -> Result<Result<Late, String>, RunError> {
+    let follow = |delay_s: f64| -> Result<Result<Late, SceneError>, RunError> {
         let subject = match subject.later(delay_s) {
             Ok(subject) => subject,
-            Err(error) => return Ok(Err(error.to_string())),
+            Err(error) => return Ok(Err(error)),
         };
         let answers = subject.answers(motions, interrupt, done)?;
         let answers: Vec<Option<Answer>> = answers.into_iter().map(Result::ok).collect();
@@ -80,7 +81,7 @@ pub fn allowed(
     for delay_s in DELAYS_S {
         match follow(delay_s)? {
             Ok(late) => tried.push(late),
-            Err(reason) => return Ok(Err(reason)),
+            Err(error) => return Ok(Err(error)),
         }
     }
     for _ in 0..BISECTIONS {
@@ -88,7 +89,7 @@ pub fn allowed(
         let Some(lost) = tried.iter().position(|late| !late.allowed).filter(|lost| *lost > 0) else { break };
         match follow(0.5 * (tried[lost - 1].delay_s + tried[lost].delay_s))? {
             Ok(late) => tried.insert(lost, late),
-            Err(reason) => return Ok(Err(reason)),
+            Err(error) => return Ok(Err(error)),
         }
     }
     let lost = tried.iter().position(|late| !late.allowed);
@@ -99,7 +100,9 @@ pub fn allowed(
 fn compared(delay_s: f64, answers: &[Option<Answer>], undelayed: &[Option<Answer>], tolerance: f64) -> Late {
     let overturned = |answer: &Option<Answer>| answer.is_some_and(|answer| answer.outcome.overturned());
     let peak = |answers: &[Option<Answer>]| {
-        let peaks = answers.iter().enumerate().filter_map(|(motion, answer)| Some((motion, (*answer)?.peak?)));
+        // A motion that the delay lets it survive has no say: its rotation is no loss.
+        let stood = |motion: &usize| undelayed[*motion].is_some_and(|before| before.peak.is_some());
+        let peaks = (0..answers.len()).filter(stood).filter_map(|motion| Some((motion, answers[motion]?.peak?)));
         peaks.reduce(|a, b| if b.1 > a.1 { b } else { a })
     };
     let newly: Vec<usize> =
@@ -133,7 +136,7 @@ mod tests {
         let before = [answer(Some(0.2)), answer(Some(0.5)), answer(None)];
         let of = |after: [Option<Answer>; 3]| compared(0.01, &after, &before, 0.05);
         // A small rotation may grow below the largest; a motion that overturns anyhow may be survived.
-        let late = of([answer(Some(0.5)), answer(Some(0.52)), answer(Some(0.3))]);
+        let late = of([answer(Some(0.5)), answer(Some(0.52)), answer(Some(0.9))]);
         assert!(late.allowed && late.motion == Some(1) && late.overturned == 0);
         let late = of([answer(Some(0.53)), answer(Some(0.5)), answer(None)]);
         assert!(!late.allowed && late.motion == Some(0) && late.newly_overturned == 0);

@@ -1,7 +1,5 @@
 //! `design.md`: the page that a designer hands on: a table, the reasons, the limits.
 
-use sprag_report::text_table::number;
-
 use super::basis::{DISC_THICKNESS_RATIO, STEEL_KG_M3, UNDERCUT_TEETH};
 use super::late::DELAYS_S;
 use super::sensors::SHARE;
@@ -21,14 +19,15 @@ pub fn page(problem: &Problem<'_>, findings: &Findings, motions: usize, unreadab
     let block = &scene.block;
     let mut page = format!("# {title}: parts list\n\n");
     page += &format!(
-        "Block of R = {} m, α = {:.4}°, {} kg, under {motions} motion{}.\n",
+        "Block of R = {} m, α = {}°, {} kg, under {motions} motion{}.\n",
         figures(block.size()),
-        block.slenderness().to_degrees(),
+        figures(block.slenderness().to_degrees()),
         figures(problem.mass_kg()),
         if motions == 1 { "" } else { "s" }
     );
     if unreadable > 0 {
-        page += &format!("\n**{unreadable} records could not be read and are not in it.**\n");
+        let records = if unreadable == 1 { "1 record" } else { &format!("{unreadable} records") };
+        page += &format!("\n**{records} could not be read, and none of that is in the list.**\n");
     }
     for list in &findings.lists {
         page += &of_device(problem, list);
@@ -64,11 +63,11 @@ fn of_device(problem: &Problem<'_>, list: &PartsList) -> String {
     if !list.overturned_by.is_empty() {
         text += "Parts are sized for the time before the fall.\n";
     }
-    text += &format!("\n{}\n", lines(list).markdown());
+    text += &format!("\n{}", lines(list).markdown());
     if let Some(sensors) = &list.sensors {
         let suites = sensors.suites.join(", ");
         let suites = if suites.is_empty() { "none".to_owned() } else { suites };
-        text += &format!("Sensors that Sprag knows and that suffice, as they are configured there: {suites}.\n");
+        text += &format!("\nSensors that Sprag knows and that suffice, as they are configured there: {suites}.\n");
     }
     text + &reasons(problem, list)
 }
@@ -128,10 +127,17 @@ fn reasons(problem: &Problem<'_>, list: &PartsList) -> String {
             figures(100.0 * basis.tolerance)
         ));
         reason(format!(
-            "Sensors: what they read times {}, the next usual full scale; the specific force at the centre of mass is a bound. Filter, sampling and \
-             reading together may take {} % of the delay; bandwidth and rate take half of that each.",
+            "Sensors: what they read times {}, the next usual full scale; the specific force at the centre of mass is a bound. {}",
             basis.margin,
-            figures(100.0 * SHARE)
+            if list.controlled {
+                "How quick they are is not asked here: those of the scene were in the runs.".to_owned()
+            } else {
+                format!(
+                    "Filter, sampling and reading together get {} % of the delay, of which filter (bandwidth) and sampling (rate) may have half each; \
+                     coil and controller get the rest.",
+                    figures(100.0 * SHARE)
+                )
+            }
         ));
     }
     text + &built(list)
@@ -144,20 +150,23 @@ fn motions(count: usize) -> String {
 /// What the chosen clutches came to.
 fn built(list: &PartsList) -> String {
     let Some(built) = &list.built else { return String::new() };
-    let before = list.largest_rotation.as_ref().map(|rotation| rotation.value);
+    let overturned = match (built.overturned, built.newly_overturned) {
+        (0, _) => "none overturns the block".to_owned(),
+        (count, 0) => format!("{} overturn it, as they do above", motions(count)),
+        (count, newly) => format!("{} overturn it, {newly} of them newly", motions(count)),
+    };
+    let [capacity, both] = [1.0, 2.0].map(|clutches| figures(1e-3 * clutches * built.capacity_n));
     let mut text = format!(
-        "\n### Tried with the chosen clutches\n\nAs plates that slip at {} N, {} ms late, under the same motions: {} overturn ({} of them do not above), and where \
-         the block stands, it tilts to {} α (above: {}).",
-        figures(built.capacity_n),
-        figures(1e3 * built.delay_s),
-        built.overturned,
-        built.newly_overturned,
-        number(built.largest_rotation, 3),
-        number(before, 3)
+        "\n### Tried with the chosen clutches\n\nPlates that slip at {capacity} kN, {} ms late, under the same motions: {overturned}.",
+        figures(1e3 * built.delay_s)
     );
+    if let (Some(after), Some(before)) = (built.largest_rotation, &list.largest_rotation) {
+        text += &format!(" Where it stands above it tilts to {after:.3} α, in the place of {:.3} α.", before.value);
+    }
     if let Some(support) = &built.support_n {
         text += &format!(
-            " The support bears {} kN at most, for both clutches may hold at once; the list has the larger of both.",
+            " The support bears {} kN: a clutch that engages late slips, and pulls with all it has; two can pull with {both} kN. The list has the \
+             larger demand of both runs.",
             figures(1e-3 * support.value)
         );
     }
@@ -174,7 +183,13 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         limit(format!("A pinion of {} teeth is undercut: it needs a profile shift.", problem.basis.teeth));
     }
     limit("Teeth are checked for bending alone: not for pitting, speed, shafts, keys and bearings, nor the rack's guides. The inertia of pinion, shaft and clutch is left out.".to_owned());
-    limit("Clutches are sized by torque: heat of slip, wear, and drag of an open clutch are left out. Coils are sized by time; their power follows from the clutch that is bought.".to_owned());
+    let heat = findings.lists.iter().filter(|list| list.pinion.clutch_torque_n_m.is_some()).map(|list| list.flywheel.energy_j);
+    let heat = heat.reduce(f64::max).map_or_else(String::new, |heat| {
+        format!(" A closing that brings a flywheel to its largest speed makes {} J of heat.", figures(heat))
+    });
+    limit(format!(
+        "Clutches are sized by torque: wear and drag of an open clutch are left out.{heat} Coils are sized by time; their power follows from the clutch that is bought."
+    ));
     limit("One stage from rack to flywheel. A train of two needs a smaller disc and has a faster one.".to_owned());
     if problem.scene.file.device.iter().any(|device| device.support_amplification.is_some()) {
         limit("Speed of the rack is that of the block: what the support moves on its own is not in it.".to_owned());

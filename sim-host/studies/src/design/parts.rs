@@ -1,6 +1,7 @@
 //! The parts list of one device.
 
 use serde::Serialize;
+use sprag_shared::observers::checks::Extreme;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::scene::checks::CoilTable;
 
@@ -33,6 +34,8 @@ pub struct Item {
     pub motion: Option<String>,
     /// When, s.
     pub time_s: Option<f64>,
+    /// Whether that is in the run with the chosen clutches.
+    pub chosen_clutches: bool,
 }
 
 /// What the chosen clutches come to, as plates that slip, with the delay that is allowed.
@@ -48,12 +51,14 @@ pub struct Built {
     pub newly_overturned: usize,
     /// Motions without a run.
     pub failed: usize,
-    /// max |θ|/α where it stands; null where it never does.
+    /// max |θ|/α over the motions in which it stands, as the scene has it too; null where there is none.
     pub largest_rotation: Option<f64>,
     /// Largest force on the support, N.
     pub support_n: Option<Largest>,
     /// Farthest travel to one side, m.
     pub travel_m: Option<Largest>,
+    /// Largest speed of the rack, m/s.
+    pub rack_speed_m_s: Option<Largest>,
 }
 
 /// What is known of a device before its lines are written.
@@ -66,14 +71,16 @@ pub struct Sizing<'a> {
     pub basis: &'a Basis,
     /// Mass of the block, kg.
     pub mass_kg: f64,
-    /// Flywheels, each with a clutch if there are two.
-    pub flywheels: usize,
     /// The pinion.
     pub pinion: &'a Pinion,
     /// The flywheel.
     pub disc: &'a Disc,
+    /// Largest speed of the rack, m/s.
+    pub rack_speed: Option<&'a Largest>,
     /// The delay allowed, of clutches that take commands.
     pub allowed: Option<&'a Allowed>,
+    /// Whether a controller drives them, so that its sensors were in the runs.
+    pub controlled: bool,
     /// The chosen clutches, where they were tried.
     pub built: Option<&'a Built>,
     /// The scene's coil.
@@ -85,7 +92,8 @@ impl Sizing<'_> {
     pub fn sensors(&self) -> Option<SensorClass> {
         let allowed = self.allowed?;
         let margin = self.basis.margin;
-        Some(sensor_class(margin * self.rate()?.value, margin * self.acceleration()?.value, allowed.delay_s))
+        let for_sensors = (!self.controlled).then_some(allowed.delay_s);
+        Some(sensor_class(margin * self.rate()?.value, margin * self.acceleration()?.value, for_sensors))
     }
 
     fn rate(&self) -> Option<Largest> {
@@ -104,17 +112,13 @@ impl Sizing<'_> {
     pub fn items(&self, sensors: Option<&SensorClass>) -> Vec<Item> {
         let (basis, pinion, disc) = (self.basis, self.pinion, self.disc);
         let weight = self.mass_kg * GRAVITY;
-        let found =
-            |of: &dyn Fn(&Asked) -> Option<sprag_shared::observers::checks::Extreme<f64>>| largest(self.motions, self.asked, of);
-        let larger = |one: Option<Largest>, other: Option<&Largest>| match (one, other) {
-            (Some(one), Some(other)) if other.value > one.value => Some(other.clone()),
-            (one, _) => one,
-        };
-        let of_weight = found(&|asked| asked.located.support).map(|force| force.times(weight));
-        let support = larger(of_weight, self.built.and_then(|built| built.support_n.as_ref()));
-        let travel = larger(found(&|asked| asked.located.stroke), self.built.and_then(|built| built.travel_m.as_ref()));
+        let found = |of: &dyn Fn(&Asked) -> Option<Extreme<f64>>| largest(self.motions, self.asked, of);
+        let built = |of: fn(&Built) -> &Option<Largest>| self.built.and_then(|built| of(built).as_ref());
+        let support = found(&|asked| asked.located.support).map(|force| force.times(weight));
+        let support = support.map(|support| support.or_larger(built(|built| &built.support_n)));
+        let travel = found(&|asked| asked.located.stroke);
+        let travel = travel.map(|travel| travel.or_larger(built(|built| &built.travel_m)));
         let drive = found(&|asked| asked.located.drive);
-        let speed = found(&|asked| Some(asked.rack_speed));
         let mut list = List::default();
 
         let with_margin = |series: &[f64], needed: &Option<Largest>| {
@@ -138,21 +142,24 @@ impl Sizing<'_> {
             list.sized("clutch, each", "torque", "N m", needed.as_ref(), Some(torque));
         }
 
-        list.follows("flywheel, each", "moment of inertia", "kg m²", Some(disc.inertia_kg_m2));
-        list.follows("flywheel, each", "diameter", "m", Some(disc.diameter_m));
-        list.follows("flywheel, each", "thickness", "m", Some(disc.thickness_m));
-        list.follows("flywheel, each", "mass", "kg", Some(disc.mass_kg));
-        let of_speed = |value: f64| speed.as_ref().map(|speed| Largest { value, ..speed.clone() });
-        list.sized("flywheel, each", "speed", "rev/min", of_speed(disc.speed_rev_min).as_ref(), None);
-        list.sized("flywheel, each", "energy", "J", of_speed(disc.energy_j).as_ref(), None);
+        let flywheel = if pinion.clutch_torque_n_m.is_some() { "flywheel, each" } else { "flywheel" };
+        list.follows(flywheel, "moment of inertia", "kg m²", Some(disc.inertia_kg_m2));
+        list.follows(flywheel, "diameter", "m", Some(disc.diameter_m));
+        list.follows(flywheel, "thickness", "m", Some(disc.thickness_m));
+        list.follows(flywheel, "mass", "kg", Some(disc.mass_kg));
+        let of_speed = |value: f64| self.rack_speed.map(|speed| Largest { value, ..speed.clone() });
+        list.sized(flywheel, "speed", "rev/min", of_speed(disc.speed_rev_min).as_ref(), None);
+        list.sized(flywheel, "energy", "J", of_speed(disc.energy_j).as_ref(), None);
         let rim = of_speed(disc.rim_stress_mpa);
-        list.sized("flywheel, each", "stress at the rim", "MPa", rim.as_ref(), Some(basis.allowable_stress_mpa));
+        list.sized(flywheel, "stress at the rim", "MPa", rim.as_ref(), Some(basis.allowable_stress_mpa));
 
         if let Some(allowed) = self.allowed {
             let motion = allowed.lost().and_then(|late| late.motion).map(|motion| self.motions[motion].name.clone());
-            let mut item = Item::of("coil", "delay allowed", "s", None, Some(allowed.delay_s));
+            let mut item = Item::of("clutch control", "delay, all in all", "s", None, Some(allowed.delay_s));
             item.motion = motion;
             list.0.push(item);
+            let for_sensors = sensors.and_then(|sensors| sensors.delay_s);
+            list.follows("coil", "delay, at most", "s", Some(allowed.delay_s - for_sensors.unwrap_or(0.0)));
             let coils = |of: &dyn Fn(&Asked) -> Option<f64>| found(&|asked| of(asked).map(whole_run));
             let engaged = coils(&|asked| asked.coils.map(|coils| coils.engaged_s));
             list.whole_run("coils, both", "time engaged", "s", engaged);
@@ -167,17 +174,19 @@ impl Sizing<'_> {
             list.sized("gyroscope", "full scale", "°/s", degrees.as_ref(), range);
             let g = self.acceleration().map(|acceleration| acceleration.times(1.0 / GRAVITY));
             list.sized("accelerometers", "full scale", "g", g.as_ref(), sensors.accelerometer_range_g);
-            list.follows("sensors", "delay, all in all", "s", Some(sensors.delay_s));
-            list.follows("sensors", "bandwidth, at least", "Hz", sensors.bandwidth_hz);
-            list.follows("sensors", "rate, at least", "Hz", sensors.rate_hz);
+            if sensors.delay_s.is_some() {
+                list.follows("sensors", "delay, at most", "s", sensors.delay_s);
+                list.follows("sensors", "bandwidth, at least", "Hz", sensors.bandwidth_hz);
+                list.follows("sensors", "rate, at least", "Hz", sensors.rate_hz);
+            }
         }
         list.0
     }
 }
 
 /// A total over a run, which has no instant.
-fn whole_run(value: f64) -> sprag_shared::observers::checks::Extreme<f64> {
-    sprag_shared::observers::checks::Extreme { value, time: f64::NAN }
+fn whole_run(value: f64) -> Extreme<f64> {
+    Extreme { value, time: f64::NAN }
 }
 
 /// Lines.
@@ -196,6 +205,7 @@ impl Item {
             margin: value.zip(chosen).filter(|(needed, _)| *needed > 0.0).map(|(needed, chosen)| chosen / needed),
             motion: needed.map(|needed| needed.motion.clone()),
             time_s: needed.map(|needed| needed.time_s).filter(|time| time.is_finite()),
+            chosen_clutches: needed.is_some_and(|needed| needed.chosen_clutches),
         }
     }
 }

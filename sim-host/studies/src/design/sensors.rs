@@ -12,7 +12,7 @@ use super::standard::{ACCELEROMETER_RANGES_G, GYROSCOPE_RANGES_DEG_S, smallest};
 /// Share of the delay allowed that sensors may take: the rest is the clutch's and the controller's.
 pub const SHARE: f64 = 0.2;
 
-/// What sensors have to be. Ranges are null where no usual one is enough, times where no delay is allowed.
+/// What sensors have to be. Ranges are null where no usual one is enough, times where sensors were in the runs, or no delay is allowed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SensorClass {
     /// Full scale of the gyroscope, degrees per second.
@@ -20,7 +20,7 @@ pub struct SensorClass {
     /// Full scale of the accelerometers on block and ground, g.
     pub accelerometer_range_g: Option<f64>,
     /// Delay that filter, sampling and reading may take together, s.
-    pub delay_s: f64,
+    pub delay_s: Option<f64>,
     /// −3 dB corner of a Butterworth filter of second order that takes half of that, √2/(2π f) at low frequency, Hz.
     pub bandwidth_hz: Option<f64>,
     /// Rate of samples whose period is half of it, Hz.
@@ -30,23 +30,24 @@ pub struct SensorClass {
 }
 
 /// For a rotation rate of `rate_rad_s` and an acceleration of `acceleration_m_s2`, margins included, and clutches that may be later by
-/// `allowed_s`.
-pub fn sensor_class(rate_rad_s: f64, acceleration_m_s2: f64, allowed_s: f64) -> SensorClass {
-    let delay_s = SHARE * allowed_s;
+/// `allowed_s`, of which sensors get their share; without it any sensors are quick enough.
+pub fn sensor_class(rate_rad_s: f64, acceleration_m_s2: f64, allowed_s: Option<f64>) -> SensorClass {
+    let delay_s = allowed_s.map(|allowed| SHARE * allowed);
+    let half = delay_s.map(|delay| 0.5 * delay).filter(|half| *half > 0.0);
     let suffices = |suite: &Suite| {
         let reaches = |sensor: &Inertial, least: f64| sensor.full_scale == 0.0 || sensor.full_scale >= least;
         let parts = [&suite.gyroscope, &suite.block_accelerometer, &suite.ground_accelerometer];
         reaches(&suite.gyroscope, rate_rad_s)
             && parts[1..].iter().all(|sensor| reaches(sensor, acceleration_m_s2))
-            && parts.iter().all(|sensor| delay_of(sensor) <= delay_s)
+            && parts.iter().all(|sensor| delay_s.is_none_or(|delay| delay_of(sensor) <= delay))
     };
     let real = SUITES.iter().filter(|preset| preset.name != "ideal");
     SensorClass {
         gyroscope_range_deg_s: smallest(&GYROSCOPE_RANGES_DEG_S, rate_rad_s / DEGREE),
         accelerometer_range_g: smallest(&ACCELEROMETER_RANGES_G, acceleration_m_s2 / GRAVITY),
         delay_s,
-        bandwidth_hz: (delay_s > 0.0).then(|| SQRT_2 / (2.0 * PI) / (0.5 * delay_s)),
-        rate_hz: (delay_s > 0.0).then(|| 1.0 / (0.5 * delay_s)),
+        bandwidth_hz: half.map(|half| SQRT_2 / (2.0 * PI) / half),
+        rate_hz: half.map(|half| 1.0 / half),
         suites: real.filter(|preset| suffices(&preset.part)).map(|preset| preset.name).collect(),
     }
 }
@@ -64,7 +65,7 @@ mod tests {
 
     #[test]
     fn ranges_and_rates_are_the_next_that_are_enough() {
-        let class = sensor_class(130.0 * DEGREE, 2.1 * GRAVITY, 0.01);
+        let class = sensor_class(130.0 * DEGREE, 2.1 * GRAVITY, Some(0.01));
         assert_eq!((class.gyroscope_range_deg_s, class.accelerometer_range_g), (Some(250.0), Some(4.0)));
         // 2 ms: 1 ms of a filter is 225 Hz, 1 ms a period of 1 kHz.
         assert!((class.bandwidth_hz.unwrap() - 225.08).abs() < 0.01 && (class.rate_hz.unwrap() - 1000.0).abs() < 1e-9);
@@ -74,11 +75,13 @@ mod tests {
 
     #[test]
     fn sensors_that_are_too_small_or_too_slow_do_not_suffice() {
-        assert_eq!(sensor_class(0.1, 10.0, 0.0005).suites, [""; 0]);
-        assert_eq!(sensor_class(0.1, 10.0, 0.0).bandwidth_hz, None);
+        assert_eq!(sensor_class(0.1, 10.0, Some(0.0005)).suites, [""; 0]);
+        assert_eq!(sensor_class(0.1, 10.0, Some(0.0)).bandwidth_hz, None);
         // 10 g: the ICM-42688-P is set to 8 g here, the BMI088 to 12 g.
-        assert_eq!(sensor_class(0.1, 10.0 * GRAVITY, 0.02).suites, ["bmi088", "adis16470"]);
-        let beyond = sensor_class(2001.0 * DEGREE, 17.0 * GRAVITY, 0.02);
+        assert_eq!(sensor_class(0.1, 10.0 * GRAVITY, Some(0.02)).suites, ["bmi088", "adis16470"]);
+        // However slow, where sensors were in the runs.
+        assert!(sensor_class(0.1, 10.0, None).suites.contains(&"mpu-6050"));
+        let beyond = sensor_class(2001.0 * DEGREE, 17.0 * GRAVITY, Some(0.02));
         assert_eq!((beyond.gyroscope_range_deg_s, beyond.accelerometer_range_g, beyond.suites.len()), (None, None, 0));
     }
 }

@@ -1,10 +1,12 @@
 //! A parts list for each device of a scene under a set of motions.
 
 use serde::Serialize;
+use sprag_shared::observers::checks::Extreme;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::Scene;
+use sprag_sim::scene::device::Kind;
+use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::RunError;
 
 use super::asked::Asked;
@@ -157,7 +159,7 @@ impl<'a> Problem<'a> {
         let drive = largest(motions, &asked, |asked| asked.located.drive).filter(|drive| drive.value > 0.0);
         let Some(drive) = drive else { return Err(DesignError::NeverRocks { device }) };
         let force_n = drive.value * weight;
-        let flywheels = if scene.file.device[index].kind == sprag_sim::scene::device::Kind::ClutchedPair { 2 } else { 1 };
+        let flywheels = if scene.file.device[index].kind == Kind::ClutchedPair { 2 } else { 1 };
         let no_gear = || DesignError::NoGear {
             device: device.clone(),
             force_n,
@@ -165,17 +167,15 @@ impl<'a> Problem<'a> {
             allowable_mpa: basis.allowable_stress_mpa,
         };
         let chosen = pinion(force_n, flywheels == 2, basis).ok_or_else(no_gear)?;
-        let rack_speed = largest(motions, &asked, |asked| Some(asked.rack_speed)).map_or(0.0, |speed| speed.value);
-        let inertance_kg = scene.devices[index].device.mass_ratio * self.mass_kg;
-        let disc = Disc::new(inertance_kg, chosen.radius_m, rack_speed);
-
+        // Changed scenes have this device alone.
+        let in_words = |error: SceneError| error.to_string().replacen("device.0.", &format!("device.{index}."), 1);
         let (mut delay, mut delay_unknown, mut built, mut built_unknown) = (None, None, None, None);
         if takes_commands {
             let undelayed: Vec<Option<Answer>> = asked.iter().map(|asked| asked.as_ref().map(answer)).collect();
             (work.begin)((DELAYS_S.len() + BISECTIONS) * motions.len());
             match allowed(&bare, &undelayed, basis.tolerance, motions, work.interrupt, work.done).map_err(interrupted)? {
                 Ok(allowed) => delay = Some(allowed),
-                Err(reason) => delay_unknown = Some(reason),
+                Err(error) => delay_unknown = Some(in_words(error)),
             }
         }
         if let (Some(delay), true) = (&delay, takes_commands) {
@@ -186,21 +186,26 @@ impl<'a> Problem<'a> {
                     let found = work.asked(&subject.with_coil(coil), &format!("{device}, as chosen"), findings)?;
                     built = Some(compare(&chosen, delay.delay_s, weight, motions, (&asked, &found)));
                 }
-                Err(error) => built_unknown = Some(error.to_string()),
+                Err(error) => built_unknown = Some(in_words(error)),
             }
         }
         for (what, reason) in [("the delay allowed", &delay_unknown), ("the chosen clutches", &built_unknown)] {
             findings.left_out.extend(reason.as_ref().map(|reason| format!("{device}: {what}: {reason}")));
         }
+        let rack_speed = largest(motions, &asked, |asked| Some(asked.rack_speed));
+        let rack_speed = rack_speed.map(|speed| speed.or_larger(built.as_ref().and_then(|built| built.rack_speed_m_s.as_ref())));
+        let inertance_kg = scene.devices[index].device.mass_ratio * self.mass_kg;
+        let disc = Disc::new(inertance_kg, chosen.radius_m, rack_speed.as_ref().map_or(0.0, |speed| speed.value));
         let sizing = Sizing {
             motions,
             asked: &asked,
             basis,
             mass_kg: self.mass_kg,
-            flywheels,
             pinion: &chosen,
             disc: &disc,
+            rack_speed: rack_speed.as_ref(),
             allowed: delay.as_ref(),
+            controlled: bare.is_controlled(),
             built: built.as_ref(),
             coil,
         };
@@ -267,8 +272,8 @@ fn answer(asked: &Asked) -> Answer {
 }
 
 /// Peak rotation, which has no instant.
-fn rotation(asked: &Asked) -> Option<sprag_shared::observers::checks::Extreme<f64>> {
-    asked.peak_rotation.map(|value| sprag_shared::observers::checks::Extreme { value, time: f64::NAN })
+fn rotation(asked: &Asked) -> Option<Extreme<f64>> {
+    asked.peak_rotation.map(|value| Extreme { value, time: f64::NAN })
 }
 
 /// What was found with the chosen clutches, beside what was without.
@@ -280,6 +285,11 @@ fn compare(
     (before, after): (&[Option<Asked>], &[Option<Asked>]),
 ) -> Built {
     let overturned = |asked: &Option<Asked>| asked.as_ref().is_some_and(|asked| asked.outcome.overturned());
+    let stood: Vec<Option<Asked>> =
+        after.iter().zip(before).map(|(after, before)| after.filter(|_| !overturned(before))).collect();
+    let mine = |of: &dyn Fn(&Asked) -> Option<Extreme<f64>>| {
+        largest(motions, after, of).map(|largest| Largest { chosen_clutches: true, ..largest })
+    };
     let newly = before.iter().zip(after).filter(|(before, after)| overturned(after) && !overturned(before));
     Built {
         capacity_n: chosen.load_n,
@@ -287,8 +297,9 @@ fn compare(
         overturned: after.iter().filter(|asked| overturned(asked)).count(),
         newly_overturned: newly.count(),
         failed: after.iter().filter(|asked| asked.is_none()).count(),
-        largest_rotation: largest(motions, after, rotation).map(|rotation| rotation.value),
-        support_n: largest(motions, after, |asked| asked.located.support).map(|force| force.times(weight)),
-        travel_m: largest(motions, after, |asked| asked.located.stroke),
+        largest_rotation: largest(motions, &stood, rotation).map(|rotation| rotation.value),
+        support_n: mine(&|asked| asked.located.support).map(|force| force.times(weight)),
+        travel_m: mine(&|asked| asked.located.stroke),
+        rack_speed_m_s: mine(&|asked| Some(asked.rack_speed)),
     }
 }

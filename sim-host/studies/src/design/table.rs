@@ -30,7 +30,8 @@ pub fn parts_table<'s>(findings: &'s Findings) -> impl Table + 's {
         .with(number("chosen"), |row| row.row.chosen.into())
         .with(number("margin"), |row| row.row.margin.into())
         .with(Column::text("motion").or_nothing(), |row| row.row.motion.as_ref().into())
-        .with(number("time_s"), |row| row.row.time_s.into());
+        .with(number("time_s"), |row| row.row.time_s.into())
+        .with(Column::text("chosen_clutches"), |row| if row.row.chosen_clutches { "true" } else { "false" }.into());
     FieldTable { fields, rows: findings.lists.iter().flat_map(of_list).collect() }
 }
 
@@ -94,14 +95,18 @@ pub fn lines(list: &PartsList) -> TextTable {
         let (unit, factor) = readable(item.unit, item.chosen.or(item.needed).unwrap_or(0.0));
         let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| figures(factor * value));
         let time = item.time_s.map_or_else(String::new, |time| format!(" at {time:.2} s"));
+        let chosen = if item.chosen_clutches { ", chosen clutches" } else { "" };
         table.row(vec![
             item.part.to_owned(),
             item.quantity.to_owned(),
             unit.to_owned(),
             number(item.needed),
             number(item.chosen),
-            item.margin.map_or_else(|| "-".to_owned(), |margin| format!("{margin:.2}")),
-            item.motion.as_ref().map_or_else(|| "-".to_owned(), |motion| format!("{motion}{time}")),
+            item.margin.map_or_else(
+                || "-".to_owned(),
+                |margin| if margin < 100.0 { format!("{margin:.2}") } else { format!("{margin:.0}") },
+            ),
+            item.motion.as_ref().map_or_else(|| "-".to_owned(), |motion| format!("{motion}{time}{chosen}")),
         ]);
     }
     table
