@@ -150,6 +150,10 @@ fn list_of_tolerance(tolerance: f64) -> f64 {
 fn clutches_that_nobody_commands_have_a_torque_and_no_coil() {
     let list = list(&scene(PAIR, &["device.0.engagement=overrunning"]), Basis::default());
     assert!(list.pinion.clutch_torque_n_m.is_some() && list.delay.is_none() && list.sensors.is_none());
+    // Nothing is lost by a delay where all is lost without one.
+    let felled = solved(&scene(PAIR, &["ground.0.scale=9"]), Basis::default()).unwrap();
+    assert!(felled.lists[0].delay.is_none() && felled.left_out[0].contains("every motion overturns"), "{:?}", felled.left_out);
+    assert!(felled.lists[0].overturned_by.len() == 4 && felled.lists[0].built.is_none());
     // A mount that takes no delay is said, and the rest is there.
     let findings = solved(&scene(PAIR, &["device.0.mount=base-corners", "device.0.pulley_ratio=3"]), Basis::default()).unwrap();
     assert!(findings.lists[0].delay.is_none() && findings.left_out[0].contains("horizontal mount"), "{:?}", findings.left_out);

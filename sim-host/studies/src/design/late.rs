@@ -35,6 +35,17 @@ pub struct Late {
     pub motion: Option<usize>,
 }
 
+/// Why nobody knows which delay is allowed.
+#[derive(Debug, thiserror::Error)]
+pub enum Unknown {
+    /// The scene takes no delay.
+    #[error("{0}")]
+    Scene(SceneError),
+    /// There is nothing to lose.
+    #[error("every motion overturns the block without a delay too, so that none can cost anything")]
+    NeverStands,
+}
+
 /// The delay that is allowed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Allowed {
@@ -55,7 +66,7 @@ impl Allowed {
 
 /// Tries `subject`, which comes to `undelayed`, with later clutches: a delay is allowed while no motion overturns it that does not without a
 /// delay, and the largest rotation over the motions grows by no more than `tolerance`. Past the first delay that is not, nothing is allowed,
-/// for what a delay costs is not monotonic. [`SceneError`] where the scene takes no delay.
+/// for what a delay costs is not monotonic. [`Unknown`] where nobody can know.
 ///
 /// # Errors
 /// [`RunError::Interrupted`].
@@ -66,13 +77,16 @@ pub fn allowed(
     motions: &[StudyMotion],
     interrupt: &Interrupt,
     done: &(dyn Fn() + Sync),
-) -> Result<Result<Allowed, SceneError>, RunError> {
+) -> Result<Result<Allowed, Unknown>, RunError> {
+    if undelayed.iter().flatten().all(|answer| answer.peak.is_none()) {
+        return Ok(Err(Unknown::NeverStands));
+    }
     let late = |delay_s: f64, answers: &[Option<Answer>]| compared(delay_s, answers, undelayed, tolerance);
     let mut tried = vec![late(0.0, undelayed)];
-    let follow = |delay_s: f64| -> Result<Result<Late, SceneError>, RunError> {
+    let follow = |delay_s: f64| -> Result<Result<Late, Unknown>, RunError> {
         let subject = match subject.later(delay_s) {
             Ok(subject) => subject,
-            Err(error) => return Ok(Err(error)),
+            Err(error) => return Ok(Err(Unknown::Scene(error))),
         };
         let answers = subject.answers(motions, interrupt, done)?;
         let answers: Vec<Option<Answer>> = answers.into_iter().map(Result::ok).collect();

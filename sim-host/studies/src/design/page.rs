@@ -9,6 +9,9 @@ use super::table::{figures, lines};
 /// Duration of a contact at an impact, s, by which the shock on a sensor is estimated: the default of `controller.shock_s`.
 const CONTACT_S: f64 = 1e-3;
 
+/// max |θ|/α below which a share of it is a strict tolerance.
+const SMALL_ROTATION: f64 = 0.1;
+
 /// Most names of motions in a line.
 const MOST_NAMES: usize = 5;
 
@@ -121,10 +124,15 @@ fn reasons(problem: &Problem<'_>, list: &PartsList) -> String {
         };
         reason(format!(
             "Delay: engagement and release are both later by it, from a command to full torque{}. Up to {} ms nothing more overturns and the largest \
-             rotation grows by no more than {} %; {lost}.",
+             rotation grows by no more than {} %; {lost}.{}",
             if list.controlled { ", beyond what controller and scene have" } else { "" },
             figures(1e3 * delay.delay_s),
-            figures(100.0 * basis.tolerance)
+            figures(100.0 * basis.tolerance),
+            if list.largest_rotation.as_ref().is_some_and(|rotation| rotation.value < SMALL_ROTATION) {
+                " The block hardly tilts: a larger --tolerance would do."
+            } else {
+                ""
+            }
         ));
         reason(format!(
             "Sensors: what they read times {}, the next usual full scale; the specific force at the centre of mass is a bound. {}",
@@ -149,7 +157,16 @@ fn motions(count: usize) -> String {
 
 /// What the chosen clutches came to.
 fn built(list: &PartsList) -> String {
-    let Some(built) = &list.built else { return String::new() };
+    let Some(built) = &list.built else {
+        let of_scene = |capacity: f64| {
+            let [scene, chosen] = [capacity, list.pinion.load_n].map(|force| figures(1e-3 * force));
+            format!(
+                "- The clutch of the scene slips at {scene} kN and limits what is needed here; the chosen one slips at {chosen} kN. To try that, give it as \
+                 clutch.capacity_n.\n"
+            )
+        };
+        return list.scene_capacity_n.map_or_else(String::new, of_scene);
+    };
     let overturned = match (built.overturned, built.newly_overturned) {
         (0, _) => "none overturns the block".to_owned(),
         (count, 0) => format!("{} overturn it, as they do above", motions(count)),

@@ -15,7 +15,7 @@ use super::error::DesignError;
 use super::flywheel::Disc;
 use super::gear::{Pinion, pinion};
 use super::largest::{Largest, largest};
-use super::late::{Allowed, BISECTIONS, DELAYS_S, allowed};
+use super::late::{Allowed, BISECTIONS, DELAYS_S, Unknown, allowed};
 use super::parts::{Built, Item, Sizing};
 use super::sensors::SensorClass;
 use super::subject::Subject;
@@ -66,6 +66,8 @@ pub struct PartsList {
     pub built: Option<Built>,
     /// Why nobody knows.
     pub built_unknown: Option<String>,
+    /// Force at which the scene's own clutch slips, N; null where it has none that slips.
+    pub scene_capacity_n: Option<f64>,
     /// Sensors of a controller.
     pub sensors: Option<SensorClass>,
     /// Largest coefficient of friction that the toe needs, impacts included.
@@ -175,7 +177,8 @@ impl<'a> Problem<'a> {
             (work.begin)((DELAYS_S.len() + BISECTIONS) * motions.len());
             match allowed(&bare, &undelayed, basis.tolerance, motions, work.interrupt, work.done).map_err(interrupted)? {
                 Ok(allowed) => delay = Some(allowed),
-                Err(error) => delay_unknown = Some(in_words(error)),
+                Err(Unknown::Scene(error)) => delay_unknown = Some(in_words(error)),
+                Err(unknown) => delay_unknown = Some(unknown.to_string()),
             }
         }
         if let (Some(delay), true) = (&delay, takes_commands) {
@@ -228,6 +231,10 @@ impl<'a> Problem<'a> {
             delay_unknown,
             built,
             built_unknown,
+            scene_capacity_n: scene.file.device[index]
+                .clutch
+                .as_ref()
+                .and_then(|clutch| clutch.capacity_n.or_else(|| clutch.capacity_ratio.map(|ratio| ratio * weight))),
             sensors,
             friction_needed: followed.clone().filter_map(|asked| asked.friction_needed).reduce(f64::max),
             contact_lost: followed.filter(|asked| asked.contact_lost).count(),

@@ -143,7 +143,7 @@ mod tests {
     #[test]
     fn numbers_have_four_figures_and_units_that_people_read() {
         let shown =
-            [(8.0, "8"), (0.25, "0.25"), (12.345_67, "12.35"), (1234.56, "1235"), (0.000_123_45, "0.0001235"), (1e9, "1.000e9")];
+            [(8.0, "8"), (0.25, "0.25"), (12.345_67, "12.35"), (1234.56, "1235"), (0.000_123_46, "0.0001235"), (1e9, "1.000e9")];
         for (value, text) in shown {
             assert_eq!(figures(value), text);
         }
