@@ -149,7 +149,7 @@ impl<'a> Problem<'a> {
         let coil = scene.file.checks.as_ref().and_then(|checks| checks.coil);
         let bare = Subject::new(scene, index)?;
         let takes_commands = scene.devices[index].takes_commands();
-        let asked = work.asked(&bare.clone().with_coil(coil), &device, findings)?;
+        let asked = work.asked(&bare.clone().watched(coil), &device, findings)?;
         if asked.iter().all(Option::is_none) {
             let first = findings.failed.last().cloned().unwrap_or_default();
             return Err(DesignError::NoRun { device, first });
@@ -186,7 +186,7 @@ impl<'a> Problem<'a> {
             match bare.built(chosen.load_n).and_then(|built| built.map(late).transpose()) {
                 Ok(None) => {}
                 Ok(Some(subject)) => {
-                    let found = work.asked(&subject.with_coil(coil), &format!("{device}, as chosen"), findings)?;
+                    let found = work.asked(&subject.watched(coil), &format!("{device}, as chosen"), findings)?;
                     built = Some(compare(&chosen, delay.delay_s, weight, motions, (&asked, &found)));
                 }
                 Err(error) => built_unknown = Some(in_words(error)),

@@ -95,9 +95,9 @@ impl Subject {
         Ok(Subject { scene: scene.only(0), controlled: self.controlled.clone() })
     }
 
-    /// What `coil` of `[checks]` the original scene has goes with the device.
+    /// The same with a history, and with checks that look at forces, travel, toe and coils; `coil` is what the scene says of them.
     #[must_use]
-    pub fn with_coil(mut self, coil: Option<CoilTable>) -> Subject {
+    pub fn watched(mut self, coil: Option<CoilTable>) -> Subject {
         let coil = coil.unwrap_or(CoilTable { holding_power_w: 0.0, closing_energy_j: 0.0, largest_energy_j: None });
         self.scene.file.checks =
             Some(ChecksTable { friction_coefficient: Some(ANY_FRICTION), coil: Some(coil), ..ChecksTable::default() });
@@ -105,8 +105,8 @@ impl Subject {
         self
     }
 
-    /// What it asks for under each of `motions`, on rayon's threads, as it is [`Subject::with_coil`]; in words why nobody knows. `done` is
-    /// called after each.
+    /// What one that is [`Subject::watched`] asks for under each of `motions`, on rayon's threads; in words why nobody knows. `done` is called
+    /// after each.
     ///
     /// # Errors
     /// [`RunError::Interrupted`].
