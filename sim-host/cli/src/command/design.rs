@@ -26,7 +26,7 @@ use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
 use super::thread_arguments::ThreadArguments;
 
-/// From a device and motions to a parts list: gear, flywheels, clutches, coils, sensors.
+/// Size the parts of a device for a set of motions: a parts list.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag design scenes/near_fault.toml --set block.mass_kg=10000\n  \
     sprag design pier.toml --records near_fault/*.AT2 --device \"clutched pair\" --out out/pier\n\n\
