@@ -7,7 +7,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::command::context::Run;
 #[cfg(feature = "effects")]
-use crate::command::{accuracy, board, closed_loop, hil, loop_study};
+use crate::command::{accuracy, board, closed_loop, design, hil, loop_study};
 use crate::command::{
     batch, cloud, completions, effects, example, explain, manual, map, new, optimise, part, plan, record, schema, sensitivity,
     similar, simulate, synthesize,
@@ -36,6 +36,8 @@ pub enum Command {
     Part(part::PartArguments),
     Collect(part::CollectArguments),
     Optimise(optimise::OptimiseArguments),
+    #[cfg(feature = "effects")]
+    Design(design::DesignArguments),
     Similar(similar::SimilarArguments),
     Sensitivity(sensitivity::SensitivityArguments),
     #[cfg(feature = "effects")]
@@ -63,7 +65,7 @@ pub enum Command {
 /// The subcommands as the help groups them.
 const GROUPS: [(&str, &[&str]); 6] = [
     ("Simulate", &["example", "new", "schema", "simulate", "explain", "effects", "batch"]),
-    ("Study", &["map", "cloud", "optimise", "sensitivity", "similar", "accuracy"]),
+    ("Study", &["map", "cloud", "optimise", "design", "sensitivity", "similar", "accuracy"]),
     ("Many machines", &["plan", "part", "collect"]),
     ("Control", &["loop", "loop-study", "hil", "board"]),
     ("Ground motions", &["record", "synthesize"]),
@@ -118,6 +120,8 @@ impl Command {
             Command::Similar(arguments) => arguments,
             Command::Cloud(arguments) => arguments,
             Command::Optimise(arguments) => arguments,
+            #[cfg(feature = "effects")]
+            Command::Design(arguments) => arguments,
             Command::Map(arguments) => arguments,
             Command::Plan(arguments) => arguments,
             Command::Part(arguments) => arguments,

@@ -3,6 +3,7 @@
 mod accuracy_study;
 mod batch_parts;
 mod cloud;
+mod design;
 mod maps;
 mod needs_cells;
 mod needs_records;

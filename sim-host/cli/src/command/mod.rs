@@ -17,6 +17,8 @@ pub mod closed_loop;
 pub mod cloud;
 pub mod completions;
 pub mod context;
+#[cfg(feature = "effects")]
+pub mod design;
 pub mod divided;
 pub mod effects;
 pub mod example;
@@ -36,6 +38,7 @@ pub mod optimise;
 pub mod out_arguments;
 pub mod part;
 pub mod plan;
+mod read_motions;
 pub mod record;
 pub mod record_arguments;
 mod report;

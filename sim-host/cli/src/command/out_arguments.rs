@@ -69,7 +69,7 @@ impl OutputArguments {
     pub(super) fn formats(&self, command: &str) -> anyhow::Result<Formats> {
         let default = if matches!(command, "map" | "cloud" | "optimise") { Formats::ALL } else { Formats::PLAIN };
         let formats = self.formats.unwrap_or(default);
-        let typed = default.parquet || matches!(command, "sensitivity" | "similar" | "accuracy");
+        let typed = default.parquet || matches!(command, "design" | "sensitivity" | "similar" | "accuracy");
         anyhow::ensure!(typed || !formats.parquet, "--formats: `sprag {command}` writes its tables as csv only");
         let png = if self.png { Part::PNG.allow(true)? } else { formats.png };
         Ok(Formats { png, ..formats })

@@ -11,9 +11,7 @@ use sprag_report::progress::Progress;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
-use sprag_sim::scene::error::KeyPath;
-use sprag_sim::scene::ground::{GroundError, Motion};
-use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::scene::Scene;
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
 use sprag_studies::sensitivity::report::{comparison_table, page, table};
 use sprag_studies::sensitivity::statistics::{Summary, summaries};
@@ -22,6 +20,7 @@ use sprag_studies::sensitivity::study::{Findings, Flip, Study};
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
+use super::read_motions::ReadMotions;
 use super::record_arguments::ReadArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
@@ -103,24 +102,8 @@ fn studied(
 ) -> anyhow::Result<Studied> {
     let (mut scene, study) = Study::load(&arguments.scene.scene, &arguments.scene.changes(change))?;
     arguments.reading.apply(&mut scene)?;
-    let records = records(arguments, &scene)?;
-    require_files(&scene, &records)?;
-    let reading = Progress::uncounted("reading records");
-    let mut motions: Vec<StudyMotion> = Vec::new();
-    let mut errors: Vec<String> = Vec::new();
-    motions.extend(StudyMotion::own(&scene)?);
-    for record in &records {
-        match StudyMotion::record(&scene, record) {
-            Ok(motion) => motions.push(motion),
-            Err(error @ GroundError::Record { .. }) => errors.push(error.to_string()),
-            Err(error) => return Err(error.into()),
-        }
-    }
-    reading.finish();
-    if motions.is_empty() {
-        let first = errors.first().cloned().unwrap_or_default();
-        anyhow::bail!("{}: no ground motion could be read; {first}", scene.origin);
-    }
+    let records = records(arguments)?;
+    let ReadMotions { motions, errors } = ReadMotions::of(&scene, &records)?;
     let others = [&arguments.records[..], &arguments.records_vertical].concat();
     let claim = claim_of_scene("sensitivity", &arguments.scene.scene, &scene, &scene.file, &["sensitivity"], &others)?;
     // Where the results go is tried before the work, not after it.
@@ -133,36 +116,15 @@ fn studied(
     Ok(Studied { findings: findings?, scene, subject: claim.subject, study, motions, errors })
 }
 
-/// Refuses a scene that names no file for a record, where none takes its place.
-fn require_files(scene: &Scene, records: &[RecordFiles]) -> Result<(), SceneError> {
-    let of = [
-        ("ground", &scene.file.ground, "a record file here, or --records FILE…"),
-        ("vertical", &scene.file.vertical, "a record file here"),
-    ];
-    for (name, tables, needed) in of {
-        let without = tables.iter().position(|table| table.motion == Motion::Record && table.file.is_none());
-        if let (Some(index), true) = (without, records.is_empty()) {
-            return Err(KeyPath { origin: scene.origin.clone(), key: format!("{name}.{index}.file") }.missing(needed));
-        }
-    }
-    Ok(())
-}
-
 /// The records, each with its vertical component.
-fn records(arguments: &SensitivityArguments, scene: &Scene) -> anyhow::Result<Vec<RecordFiles>> {
+fn records(arguments: &SensitivityArguments) -> anyhow::Result<Vec<RecordFiles>> {
     let (horizontal, vertical) = (&arguments.records, &arguments.records_vertical);
     if !vertical.is_empty() && vertical.len() != horizontal.len() {
         let (vertical, horizontal) = (vertical.len(), horizontal.len());
         anyhow::bail!("--records-vertical names {vertical} files, but --records {horizontal}; each record needs its own");
     }
-    if !horizontal.is_empty() && !scene.file.vertical.is_empty() {
-        anyhow::bail!("{}: vertical: does not belong to the records; leave out [[vertical]] or --records", scene.origin);
-    }
     let pair =
         |(index, file): (usize, &PathBuf)| RecordFiles { horizontal: file.clone(), vertical: vertical.get(index).cloned() };
-    if !horizontal.is_empty() && scene.file.ground.iter().all(|table| table.motion != Motion::Record) {
-        scene.clone().use_record(&horizontal[0])?;
-    }
     Ok(horizontal.iter().enumerate().map(pair).collect())
 }
 

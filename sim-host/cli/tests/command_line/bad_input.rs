@@ -128,6 +128,46 @@ fn bad_input_of_sensitivity_costs_one_line() {
 }
 
 #[test]
+fn bad_input_of_design_costs_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let near_fault = scene("near_fault");
+    let line = |scene: &str, more: &[&str], words: &[&str]| {
+        refused(&[&["design", scene, "--out", out.to_str().unwrap()], more].concat(), &out, words);
+    };
+    line("nowhere.toml", &[], &["nowhere.toml"]);
+    line(&near_fault, &[], &["block.mass_kg is missing", "--set block.mass_kg"]);
+    let heavy = |more: &[&str], words: &[&str]| {
+        line(&near_fault, &[&["--set", "block.mass_kg=10000"], more].concat(), words);
+    };
+    heavy(&["--teeth", "11"], &["--teeth is 11", "from 12 to 200"]);
+    heavy(&["--margin", "NaN"], &["--margin is NaN", "from 1 to 10"]);
+    heavy(&["--service-factor", "0.9"], &["--service-factor is 0.9", "from 1 to 10"]);
+    heavy(&["--face-width", "30"], &["--face-width is 30", "from 4 to 20"]);
+    heavy(&["--allowable-stress", "-3"], &["--allowable-stress is -3", "above 0"]);
+    heavy(&["--tolerance", "0"], &["--tolerance is 0", "above 0"]);
+    heavy(&["--device", "none"], &["--device \"none\"", "\"inerter\", \"clutched pair\""]);
+    heavy(&["--allowable-stress", "0.01"], &["inerter", "module 50 mm", "0.01 MPa"]);
+    heavy(&["--set", "ground.0.scale=0.01"], &["no motion lifts the block"]);
+    heavy(
+        &[
+            "--records",
+            "x.AT2",
+            "--set",
+            "vertical.0.motion=sine",
+            "--set",
+            "vertical.0.amplitude_g=0.1",
+            "--set",
+            "vertical.0.frequency_hz=1",
+        ],
+        &["[[vertical]] or --records"],
+    );
+    line(&scene("figure05"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["motion = \"record\""]);
+    line(&scene("record"), &["--set", "block.mass_kg=10000"], &["--record"]);
+    line(&scene("record"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["no ground motion could be read", "x.AT2"]);
+}
+
+#[test]
 fn bad_input_of_cloud_costs_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");

@@ -12,11 +12,12 @@ fn lines(folder: &Path) -> Vec<Vec<String>> {
     fs::write(path("short.toml"), SHORT_SCENE).unwrap();
     fs::write(path("own.csv"), pulse(0.4)).unwrap();
     let (short, records) = (path("short.toml"), super::studies::folder_of_pulses(folder));
-    let lines: [&[&str]; 7] = [
+    let lines: [&[&str]; 8] = [
         &["simulate", &short],
         &["map", &short, "--x", "block.restitution=0.7:0.9:2", "--cut"],
         &["cloud", &scene("cloud"), "--records", &records],
         &["optimise", &scene("optimise"), "--records", &records],
+        &["design", &short, "--set", "block.mass_kg=8000"],
         &["sensitivity", &short],
         &["similar", &short, "--with", "block.size_m=3"],
         &["loop", &scene("controller"), "--set", "run.free_time_s=0"],

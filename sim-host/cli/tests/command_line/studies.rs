@@ -38,6 +38,44 @@ fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record()
 }
 
 #[test]
+fn design_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (scene, bad) = (file("short.toml", SHORT_SCENE), file("bad.csv", "# time_s,acc_g\n0,0\n0.01,NaN\n"));
+    let records = [file("weak.csv", &pulse(0.25)), file("strong.csv", &pulse(-0.3)), file("own.csv", &pulse(0.28))];
+    let design = |threads: &str, more: &[&str]| {
+        let out = folder.path().join(threads);
+        let line =
+            ["design", &scene, "--set", "block.mass_kg=8000", "--set", "device.0.kind=clutched-pair", "--threads", threads];
+        let records = ["--out", out.to_str().unwrap(), "--records", &records[0], &bad, &records[1]];
+        (sprag(&[&line[..], more, &records].concat()), out)
+    };
+    let outs = ["1", "3"].map(|threads| {
+        let (output, out) = design(threads, &[]);
+        let message = said(&output);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(message.contains("bad.csv") && errors(&message).len() == 1, "{message}");
+        out
+    });
+    for name in ["summary.json", "parts.csv", "motions.csv", "delays.csv", "design.md", "delay.svg"] {
+        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["basis"]["teeth"], summary["designs"].as_array().unwrap().len()), (&20.into(), 1));
+    let page = fs::read_to_string(outs[0].join("design.md")).unwrap();
+    assert!(page.contains("1 record could not be read") && page.contains("clutch, each"), "{page}");
+    // Other assumptions are another design, which does not replace this one unasked.
+    let (output, _) = design("1", &["--teeth", "24"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said(&output).contains("basis.teeth differs"), "{}", said(&output));
+}
+
+#[test]
 fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
     let folder = tempfile::tempdir().unwrap();
     let records = folder.path().join("records");

@@ -241,9 +241,13 @@ fn commands_that_keep_no_rows_say_so() {
     let all: Vec<String> = (0..MANY).map(|number| format!("records/{number:03}.csv")).collect();
     let mut sensitivity = vec!["sensitivity", "short.toml", "--out", "sensitivity", "--records"];
     sensitivity.extend(all.iter().map(String::as_str));
-    let long: [(&[&str], &str); 5] = [
+    let pair = "device.0.kind=clutched-pair";
+    let mut design = vec!["design", "short.toml", "--set", "block.mass_kg=8000", "--set", pair, "--out", "design", "--records"];
+    design.extend(all.iter().map(String::as_str));
+    let long: [(&[&str], &str); 6] = [
         (&["batch", "cases.csv", "--out", "results.csv"], "Ctrl-C"),
         (&sensitivity, "termination"),
+        (&design, "Ctrl-C"),
         (&["loop", &controller, "--monte-carlo", "100000", "--out", "loop"], "Ctrl-C"),
         (&["loop-study", "practice", "--out", "study"], "termination"),
         (&["accuracy", &figure, "--out", "accuracy"], "Ctrl-C"),
@@ -252,6 +256,7 @@ fn commands_that_keep_no_rows_say_so() {
         stopped(path, arguments, by, "nothing was written");
     }
     assert!(!path.join("results.csv").exists() && !path.join("sensitivity/summary.json").exists());
+    assert!(!path.join("design/summary.json").exists());
 }
 
 #[test]
@@ -263,6 +268,7 @@ fn short_runs_end_well_on_a_terminal() {
     let (controller, figure) = (scene("controller"), scene("figure05"));
     ends_well(path, &["batch", "cases.csv", "--out", "results.csv"]);
     ends_well(path, &["sensitivity", "short.toml", "--out", "sensitivity"]);
+    ends_well(path, &["design", "short.toml", "--set", "block.mass_kg=8000", "--out", "design"]);
     ends_well(path, &["loop", &controller, "--monte-carlo", "2", "--out", "loop"]);
     ends_well(path, &["accuracy", &figure, "--cells", "1", "--smallest-step", "0.1", "--out", "accuracy"]);
     ends_well(path, &["simulate", "short.toml", "--out", "simulate"]);

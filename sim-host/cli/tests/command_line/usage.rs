@@ -95,12 +95,13 @@ fn a_machine_without_unicorn_is_shown_what_to_install() {
 }
 
 /// The commands, those of `device` too.
-const COMMANDS: [&[&str]; 22] = [
+const COMMANDS: [&[&str]; 23] = [
     &["simulate"],
     &["batch"],
     &["map"],
     &["cloud"],
     &["optimise"],
+    &["design"],
     &["similar"],
     &["sensitivity"],
     &["accuracy"],

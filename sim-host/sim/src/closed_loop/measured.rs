@@ -5,6 +5,7 @@ use super::{LoopFailure, LoopTask};
 use crate::simulation::DeviceRun;
 use crate::simulation::coil_use::CoilUse;
 use crate::simulation::device_run::Found;
+use crate::simulation::run::Task;
 
 /// The coils of both clutches, as the controller drives them.
 struct Commanded {
@@ -26,7 +27,15 @@ impl LoopTask<'_> {
     /// # Errors
     /// [`LoopFailure`].
     pub fn measured(&self) -> Result<DeviceRun, LoopFailure> {
-        let task = self.task();
+        self.measured_at(f64::INFINITY)
+    }
+
+    /// As [`LoopTask::measured`], with a history sampled every `interval` (s) and at events.
+    ///
+    /// # Errors
+    /// [`LoopFailure`].
+    pub fn measured_at(&self, interval: f64) -> Result<DeviceRun, LoopFailure> {
+        let task = Task { interval, ..self.task() };
         let mut watchers = task.watchers(&task.loaded()?)?;
         let mut coils = Commanded { used: CoilUse::default(), period: self.clock().period };
         let mut driver = self.driver(self.controller.clutch_law())?;

@@ -41,6 +41,23 @@ pub struct Demand {
     /// The largest of `tooth_stress_mpa`, with the fall of a block that overturns.
     #[serde(skip)]
     pub tooth_stress_with_fall_mpa: Option<f64>,
+    /// The largest forces and the farthest travel with their times.
+    #[serde(skip)]
+    pub located: Located,
+    /// What the coils did, where the scene has one.
+    #[serde(skip)]
+    pub coils: Option<CoilUse>,
+}
+
+/// What a device asks for and when, s; the fall of a block that overturns left out. None where the block never rocked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Located {
+    /// Largest |F|/(mg) of both flywheels together on their support.
+    pub support: Option<Extreme<f64>>,
+    /// Largest |F|/(mg) of one flywheel at the rack.
+    pub drive: Option<Extreme<f64>>,
+    /// Farthest travel of the terminals to one side, m.
+    pub stroke: Option<Extreme<f64>>,
 }
 
 /// What impacts and jolts ask of the toe, the fall of a block that overturns left out; each none where there is none.
@@ -77,6 +94,20 @@ impl Impulses {
             .into_iter()
             .flatten()
             .collect()
+    }
+}
+
+impl Located {
+    /// Of what checks found about the device of `task`; one flywheel is looked at where the scene asks for friction or gears.
+    fn of<S: Real>(task: &Task<'_>, report: &Report<S>) -> Located {
+        let times =
+            |factor: f64, extreme: Extreme<S>| Extreme { value: factor * extreme.value.to_f64(), time: extreme.time.to_f64() };
+        let force = |extreme: Extreme<S>| times(heavier(task), extreme);
+        Located {
+            support: report.support.map(force),
+            drive: report.force.into_iter().flatten().map(force).reduce(|a, b| if b.value > a.value { b } else { a }),
+            stroke: report.stroke().map(|extreme| times(1.0, extreme)),
+        }
     }
 }
 
@@ -133,6 +164,8 @@ impl Demand {
             warnings: Vec::new(),
             stroke_with_fall_m: farthest(&whole),
             tooth_stress_with_fall_mpa: tooth_stresses(task, table, &whole).into_iter().reduce(f64::max),
+            located: Located::of(task, &report),
+            coils,
         };
         demand.warn(table, &Impulses::of(&report));
         demand

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
+use super::answer::Answer;
 use super::motion::StudyMotion;
-use super::study::{Answer, Comparison, Findings, Flip};
+use super::study::{Comparison, Findings, Flip};
 use super::variants::VARIANTS;
 
 /// Quantiles of a change over the records.

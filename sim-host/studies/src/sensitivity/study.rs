@@ -3,34 +3,18 @@
 use std::path::Path;
 
 use rayon::prelude::*;
-use sprag_ensemble::shaken::Shaken;
-use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::structure::block::Block;
-use sprag_sim::accuracy::{ErrorEstimate, Worst};
+use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::{Scene, SceneError};
-use sprag_sim::simulation::{RunError, simulate_for_study};
-use sprag_sim::under_records::{Shaking, Subject, followed};
+use sprag_sim::simulation::RunError;
+use sprag_sim::under_records::Subject;
 
+use super::answer::{Answer, Missing, answers};
 use super::motion::{StudyMotion, with_vertical};
 use super::variants::{VARIANTS, Variant};
 
-/// Motions that one task takes: enough to keep lanes full.
-const TOGETHER: usize = 32;
-
 /// Peak |θ|/α of the scene as it is from which a change is reported: below it a block hardly rocks, and ratios are of nothing.
 pub const ROCKS_FROM: f64 = 0.05;
-
-/// What a run comes to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Answer {
-    /// Outcome of the run.
-    pub outcome: Outcome,
-    /// max |θ|/α; `None` when overturned.
-    pub peak: Option<f64>,
-    /// How accurate that is, where it was asked for.
-    pub error: Option<ErrorEstimate>,
-}
 
 /// A variant against the scene as it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,7 +132,10 @@ impl Study {
     /// # Errors
     /// [`RunError::Interrupted`]; runs that fail are among the findings.
     pub fn run(&self, motions: &[StudyMotion], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Result<Findings, RunError> {
-        let setup = |setup: &Setup| setup.answers(motions, interrupt, done);
+        let setup = |setup: &Setup| {
+            let vertical = setup.variant.is_some_and(|variant| VARIANTS[variant].vertical);
+            answers(&setup.subject, vertical, motions, interrupt, done)
+        };
         let answers: Vec<Result<Answer, Missing>> = self.setups.par_iter().flat_map(setup).collect();
         let mut findings = Findings::default();
         if interrupt.is_set() || answers.contains(&Err(Missing::Interrupted)) {
@@ -178,66 +165,6 @@ impl Study {
             }
         }
         Ok(findings)
-    }
-}
-
-/// Reasons why there is no answer.
-#[derive(Clone, Debug, PartialEq)]
-enum Missing {
-    Interrupted,
-    Impossible(String),
-    Failed(String),
-}
-
-impl Setup {
-    /// The answers to `motions`, on rayon's threads; `done` is called after each.
-    fn answers(&self, motions: &[StudyMotion], interrupt: &Interrupt, done: &(dyn Fn() + Sync)) -> Vec<Result<Answer, Missing>> {
-        let vertical = self.variant.is_some_and(|variant| VARIANTS[variant].vertical);
-        let together = |motions: &[StudyMotion]| -> Vec<Result<Answer, Missing>> {
-            if interrupt.is_set() {
-                return vec![Err(Missing::Interrupted); motions.len()];
-            }
-            let known: Vec<_> = motions.iter().map(|motion| motion.shaking(vertical)).collect();
-            let runs: Vec<_> = known.iter().flatten().map(|shaking| (&self.subject, *shaking)).collect();
-            let mut found = followed(&runs).into_iter();
-            let answer = |(motion, known): (&StudyMotion, &Option<Shaking<'_>>)| {
-                let answer = match known.and_then(|_| found.next().flatten()) {
-                    Some(followed) => Ok(Answer::of_shaken(&followed.motion, &self.subject.scene.block)),
-                    None => self.answer(motion, vertical, interrupt),
-                };
-                done();
-                answer
-            };
-            motions.iter().zip(&known).map(answer).collect()
-        };
-        motions.par_chunks(TOGETHER).flat_map(together).collect()
-    }
-
-    /// The answer to `motion` by the core.
-    fn answer(&self, motion: &StudyMotion, vertical: bool, interrupt: &Interrupt) -> Result<Answer, Missing> {
-        let ground = match &motion.with_vertical {
-            Ok(ground) if vertical => ground,
-            Err(reason) if vertical => return Err(Missing::Impossible(reason.clone())),
-            _ => &motion.ground,
-        };
-        let runs = simulate_for_study(&self.subject.scene, ground, interrupt).map_err(|error| match error {
-            RunError::Interrupted => Missing::Interrupted,
-            error => Missing::Failed(error.to_string()),
-        })?;
-        match runs.first() {
-            Some(run) => {
-                let error = run.error.map(|report| report.estimate);
-                Ok(Answer { outcome: run.outcome, peak: run.peak_rotation, error })
-            }
-            None => Err(Missing::Failed("no device".to_owned())),
-        }
-    }
-}
-
-impl Answer {
-    fn of_shaken(shaken: &Shaken, block: &Block) -> Answer {
-        let peak = shaken.relative_peaks(block).map(|(rotation, _)| rotation);
-        Answer { outcome: shaken.outcome(), peak, error: None }
     }
 }
 
@@ -272,6 +199,8 @@ fn changed(
 
 #[cfg(test)]
 mod tests {
+    use sprag_shared::observers::outcome::Outcome;
+
     use super::*;
 
     fn near_fault() -> &'static Path {

@@ -1,0 +1,62 @@
+//! The motions that devices of a scene are run under: the scene's own, and records in its place.
+
+use sprag_report::progress::Progress;
+use sprag_sim::scene::error::KeyPath;
+use sprag_sim::scene::ground::{GroundError, Motion};
+use sprag_sim::scene::{Scene, SceneError};
+use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
+
+/// Motions that were read.
+pub struct ReadMotions {
+    /// The scene's own, then the records that could be read.
+    pub motions: Vec<StudyMotion>,
+    /// Records that could not, in a line each.
+    pub errors: Vec<String>,
+}
+
+impl ReadMotions {
+    /// The own motion of `scene`, and each of `records` in its place.
+    ///
+    /// # Errors
+    /// A scene that has no record to replace, or none of its own without any of `records`, one whose `[[vertical]]` does not belong to them, and
+    /// where nothing could be read.
+    pub fn of(scene: &Scene, records: &[RecordFiles]) -> anyhow::Result<ReadMotions> {
+        if !records.is_empty() && !scene.file.vertical.is_empty() {
+            anyhow::bail!("{}: vertical: does not belong to the records; leave out [[vertical]] or --records", scene.origin);
+        }
+        if let (Some(first), true) = (records.first(), scene.file.ground.iter().all(|table| table.motion != Motion::Record)) {
+            scene.clone().use_record(&first.horizontal)?;
+        }
+        require_files(scene, records)?;
+        let reading = Progress::uncounted("reading records");
+        let mut read = ReadMotions { motions: StudyMotion::own(scene)?.into_iter().collect(), errors: Vec::new() };
+        for record in records {
+            match StudyMotion::record(scene, record) {
+                Ok(motion) => read.motions.push(motion),
+                Err(error @ GroundError::Record { .. }) => read.errors.push(error.to_string()),
+                Err(error) => return Err(error.into()),
+            }
+        }
+        reading.finish();
+        if read.motions.is_empty() {
+            let first = read.errors.first().cloned().unwrap_or_default();
+            anyhow::bail!("{}: no ground motion could be read; {first}", scene.origin);
+        }
+        Ok(read)
+    }
+}
+
+/// Refuses a scene that names no file for a record, where none takes its place.
+fn require_files(scene: &Scene, records: &[RecordFiles]) -> Result<(), SceneError> {
+    let of = [
+        ("ground", &scene.file.ground, "a record file here, or --records FILE…"),
+        ("vertical", &scene.file.vertical, "a record file here"),
+    ];
+    for (name, tables, needed) in of {
+        let without = tables.iter().position(|table| table.motion == Motion::Record && table.file.is_none());
+        if let (Some(index), true) = (without, records.is_empty()) {
+            return Err(KeyPath { origin: scene.origin.clone(), key: format!("{name}.{index}.file") }.missing(needed));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,232 @@
+//! The parts list of one device.
+
+use serde::Serialize;
+use sprag_shared::observers::checks::Extreme;
+use sprag_shared::structure::block::GRAVITY;
+use sprag_sim::scene::checks::CoilTable;
+
+use super::asked::Asked;
+use super::basis::Basis;
+use super::flywheel::Disc;
+use super::gear::{Pinion, rack_teeth};
+use super::largest::{Largest, largest};
+use super::late::Allowed;
+use super::sensors::{SensorClass, sensor_class};
+use super::standard::{R10, R20, preferred};
+use crate::sensitivity::motion::StudyMotion;
+
+/// One line of the list.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Item {
+    /// The part.
+    pub part: &'static str,
+    /// What of it is sized.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// What the motions ask for, without a margin; null where it follows from other lines.
+    pub needed: Option<f64>,
+    /// What is chosen, or allowed; null where nothing is.
+    pub chosen: Option<f64>,
+    /// Chosen over needed.
+    pub margin: Option<f64>,
+    /// The motion that decides.
+    pub motion: Option<String>,
+    /// When, s.
+    pub time_s: Option<f64>,
+    /// Whether that is in the run with the chosen clutches.
+    pub chosen_clutches: bool,
+}
+
+/// What the chosen clutches come to, as plates that slip, with the delay that is allowed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Built {
+    /// Force at the rack at which a clutch slips, N.
+    pub capacity_n: f64,
+    /// Delay of engagement and release, beyond the scene's, s.
+    pub delay_s: f64,
+    /// Motions that overturn it.
+    pub overturned: usize,
+    /// Those of them that do not overturn the device as the scene has it.
+    pub newly_overturned: usize,
+    /// Motions without a run.
+    pub failed: usize,
+    /// max |θ|/α over the motions in which it stands, as the scene has it too; null where there is none.
+    pub largest_rotation: Option<f64>,
+    /// Largest force on the support, N.
+    pub support_n: Option<Largest>,
+    /// Farthest travel to one side, m.
+    pub travel_m: Option<Largest>,
+    /// Largest speed of the rack, m/s.
+    pub rack_speed_m_s: Option<Largest>,
+}
+
+/// What is known of a device before its lines are written.
+pub struct Sizing<'a> {
+    /// The motions.
+    pub motions: &'a [StudyMotion],
+    /// What it asks for under each.
+    pub asked: &'a [Option<Asked>],
+    /// The design basis.
+    pub basis: &'a Basis,
+    /// Mass of the block, kg.
+    pub mass_kg: f64,
+    /// The pinion.
+    pub pinion: &'a Pinion,
+    /// The flywheel.
+    pub disc: &'a Disc,
+    /// Largest speed of the rack, m/s.
+    pub rack_speed: Option<&'a Largest>,
+    /// The delay allowed, of clutches that take commands.
+    pub allowed: Option<&'a Allowed>,
+    /// Whether a controller drives them, so that its sensors were in the runs.
+    pub controlled: bool,
+    /// The chosen clutches, where they were tried.
+    pub built: Option<&'a Built>,
+    /// The scene's coil.
+    pub coil: Option<CoilTable>,
+}
+
+impl Sizing<'_> {
+    /// The sensors that a controller needs; none without clutches that take commands.
+    pub fn sensors(&self) -> Option<SensorClass> {
+        let allowed = self.allowed?;
+        let margin = self.basis.margin;
+        let for_sensors = (!self.controlled).then_some(allowed.delay_s);
+        Some(sensor_class(margin * self.rate()?.value, margin * self.acceleration()?.value, for_sensors))
+    }
+
+    fn rate(&self) -> Option<Largest> {
+        largest(self.motions, self.asked, |asked| Some(asked.rate))
+    }
+
+    fn acceleration(&self) -> Option<Largest> {
+        let of = |asked: &Asked| {
+            let (block, ground) = (asked.block_acceleration, asked.ground_acceleration);
+            Some(if ground.value > block.value { ground } else { block })
+        };
+        largest(self.motions, self.asked, of)
+    }
+
+    /// The lines, by part.
+    pub fn items(&self, sensors: Option<&SensorClass>) -> Vec<Item> {
+        let (basis, pinion, disc) = (self.basis, self.pinion, self.disc);
+        let weight = self.mass_kg * GRAVITY;
+        let found = |of: &dyn Fn(&Asked) -> Option<Extreme<f64>>| largest(self.motions, self.asked, of);
+        let built = |of: fn(&Built) -> &Option<Largest>| self.built.and_then(|built| of(built).as_ref());
+        let support = found(&|asked| asked.located.support).map(|force| force.times(weight));
+        let support = support.map(|support| support.or_larger(built(|built| &built.support_n)));
+        let travel = found(&|asked| asked.located.stroke);
+        let travel = travel.map(|travel| travel.or_larger(built(|built| &built.travel_m)));
+        let drive = found(&|asked| asked.located.drive);
+        let mut list = List::default();
+
+        let with_margin = |series: &[f64], needed: &Option<Largest>| {
+            needed.as_ref().map(|needed| preferred(series, basis.margin * needed.value)).filter(|size| size.is_finite())
+        };
+        let chosen_travel = with_margin(&R20, &travel);
+        list.sized("support", "force", "N", support.as_ref(), with_margin(&R10, &support));
+        list.sized("rack", "travel to each side", "m", travel.as_ref(), chosen_travel);
+        let teeth = chosen_travel.map(|travel| rack_teeth(travel, pinion.module_mm));
+        list.follows("rack", "teeth", "", teeth);
+        list.follows("rack", "toothed length", "m", teeth.map(|teeth| 1e-3 * std::f64::consts::PI * pinion.module_mm * teeth));
+
+        list.follows("pinion", "module", "mm", Some(pinion.module_mm));
+        list.follows("pinion", "teeth", "", Some(f64::from(pinion.teeth)));
+        list.follows("pinion", "face width", "mm", Some(pinion.face_width_mm));
+        list.follows("pinion", "pitch radius", "m", Some(pinion.radius_m));
+        let stress = drive.as_ref().map(|drive| Largest { value: pinion.stress_mpa, ..drive.clone() });
+        list.sized("pinion", "bending stress", "MPa", stress.as_ref(), Some(basis.allowable_stress_mpa));
+        if let Some(torque) = pinion.clutch_torque_n_m {
+            let needed = drive.as_ref().map(|drive| drive.times(weight * pinion.radius_m));
+            list.sized("clutch, each", "torque", "N m", needed.as_ref(), Some(torque));
+        }
+
+        let flywheel = if pinion.clutch_torque_n_m.is_some() { "flywheel, each" } else { "flywheel" };
+        list.follows(flywheel, "moment of inertia", "kg m²", Some(disc.inertia_kg_m2));
+        list.follows(flywheel, "diameter", "m", Some(disc.diameter_m));
+        list.follows(flywheel, "thickness", "m", Some(disc.thickness_m));
+        list.follows(flywheel, "mass", "kg", Some(disc.mass_kg));
+        let of_speed = |value: f64| self.rack_speed.map(|speed| Largest { value, ..speed.clone() });
+        list.sized(flywheel, "speed", "rev/min", of_speed(disc.speed_rev_min).as_ref(), None);
+        list.sized(flywheel, "energy", "J", of_speed(disc.energy_j).as_ref(), None);
+        let rim = of_speed(disc.rim_stress_mpa);
+        list.sized(flywheel, "stress at the rim", "MPa", rim.as_ref(), Some(basis.allowable_stress_mpa));
+
+        if let Some(allowed) = self.allowed {
+            let motion = allowed.lost().and_then(|late| late.motion).map(|motion| self.motions[motion].name.clone());
+            let mut item = Item::of("clutch control", "delay, all in all", "s", None, Some(allowed.delay_s));
+            item.motion = motion;
+            list.0.push(item);
+            let for_sensors = sensors.and_then(|sensors| sensors.delay_s);
+            list.follows("coil", "delay, at most", "s", Some(allowed.delay_s - for_sensors.unwrap_or(0.0)));
+            let coils = |of: &dyn Fn(&Asked) -> Option<f64>| found(&|asked| of(asked).map(whole_run));
+            let engaged = coils(&|asked| asked.coils.map(|coils| coils.engaged_s));
+            list.whole_run("coils, both", "time engaged", "s", engaged);
+            if let Some(coil) = &self.coil {
+                let energy = coils(&|asked| asked.coils.map(|coils| coils.energy_j(coil)));
+                list.whole_run("coils, both", "energy", "J", energy);
+            }
+        }
+        if let Some(sensors) = sensors {
+            let degrees = self.rate().map(|rate| rate.times(1.0 / sprag_sim::sensor::preset::DEGREE));
+            let range = sensors.gyroscope_range_deg_s;
+            list.sized("gyroscope", "full scale", "°/s", degrees.as_ref(), range);
+            let g = self.acceleration().map(|acceleration| acceleration.times(1.0 / GRAVITY));
+            list.sized("accelerometers", "full scale", "g", g.as_ref(), sensors.accelerometer_range_g);
+            if sensors.delay_s.is_some() {
+                list.follows("sensors", "delay, at most", "s", sensors.delay_s);
+                list.follows("sensors", "bandwidth, at least", "Hz", sensors.bandwidth_hz);
+                list.follows("sensors", "rate, at least", "Hz", sensors.rate_hz);
+            }
+        }
+        list.0
+    }
+}
+
+/// A total over a run, which has no instant.
+fn whole_run(value: f64) -> Extreme<f64> {
+    Extreme { value, time: f64::NAN }
+}
+
+/// Lines.
+#[derive(Default)]
+struct List(Vec<Item>);
+
+impl Item {
+    fn of(part: &'static str, quantity: &'static str, unit: &'static str, needed: Option<&Largest>, chosen: Option<f64>) -> Item {
+        let value = needed.map(|needed| needed.value);
+        Item {
+            part,
+            quantity,
+            unit,
+            needed: value,
+            chosen,
+            margin: value.zip(chosen).filter(|(needed, _)| *needed > 0.0).map(|(needed, chosen)| chosen / needed),
+            motion: needed.map(|needed| needed.motion.clone()),
+            time_s: needed.map(|needed| needed.time_s).filter(|time| time.is_finite()),
+            chosen_clutches: needed.is_some_and(|needed| needed.chosen_clutches),
+        }
+    }
+}
+
+impl List {
+    fn sized(
+        &mut self,
+        part: &'static str,
+        quantity: &'static str,
+        unit: &'static str,
+        needed: Option<&Largest>,
+        chosen: Option<f64>,
+    ) {
+        self.0.push(Item::of(part, quantity, unit, needed, chosen));
+    }
+
+    fn follows(&mut self, part: &'static str, quantity: &'static str, unit: &'static str, chosen: Option<f64>) {
+        self.0.push(Item::of(part, quantity, unit, None, chosen));
+    }
+
+    fn whole_run(&mut self, part: &'static str, quantity: &'static str, unit: &'static str, needed: Option<Largest>) {
+        self.0.push(Item::of(part, quantity, unit, needed.as_ref(), None));
+    }
+}
