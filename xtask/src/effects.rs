@@ -66,6 +66,7 @@ const ROWS: &[Row] = &[
         kernel: "",
     },
     Row { name: "impact", set: &["PAIR}", "block.restitution=\"momentum-balance\""], base: "clutched pair", kernel: "" },
+    Row { name: "scatter", set: &["PAIR}", "block.restitution_scatter=0.02"], base: "clutched pair", kernel: "" },
     Row {
         name: "vertical",
         set: &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],

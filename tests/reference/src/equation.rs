@@ -10,6 +10,7 @@ use crate::block::{Block, GRAVITY, Restitution};
 use crate::device::{Coupling, Device};
 use crate::ground::Ground;
 use crate::mode::{BlockMode, Link, State, Wheel};
+use crate::scatter::Scatter;
 use crate::step::{BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, TWIST, VELOCITY};
 
 /// Block, device and ground.
@@ -21,6 +22,10 @@ pub struct Model {
     pub device: Device,
     /// Where η comes from.
     pub restitution: Restitution,
+    /// How impacts differ.
+    pub scatter: Scatter,
+    /// θ̇⁻ from which an impact has a number, rad/s.
+    pub counted: f64,
     /// θ̇ below which an impact may end in rest, rad/s.
     pub rest_speed: f64,
     /// |θ| from which the block does not come back, rad.

@@ -58,6 +58,7 @@ impl<'a> Runner<'a> {
             drive: direction,
             armed: true,
             engagements: 0,
+            impacts: 0,
             slipped: None,
         };
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();

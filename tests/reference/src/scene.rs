@@ -60,6 +60,10 @@ pub struct BlockTable {
     pub inertia_ratio: Option<f64>,
     pub geometry: Option<String>,
     pub restitution: Option<NumberOr>,
+    #[serde(default)]
+    pub restitution_scatter: f64,
+    #[serde(default)]
+    pub restitution_seed: u64,
     pub mass_kg: Option<f64>,
     #[serde(default)]
     pub initial_rotation_ratio: f64,

@@ -7,6 +7,7 @@ use crate::drivetrain::under_way::UnderWay;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
+use crate::math::split_mix;
 use crate::motion::observer::Observer;
 use crate::motion::state::Phase;
 use crate::structure::drivetrain::{Actuation, Delay};
@@ -44,13 +45,9 @@ impl<S: Real> Actuator<S> {
         }
     }
 
-    /// Whether engagement number `count` is missed: SplitMix64 (Steele, Lea and Flood 2014) of seed and number, so that it depends
-    /// on nothing else.
+    /// Whether engagement number `count` is missed: SplitMix64 of seed and number, so that it depends on nothing else.
     pub fn misses(&self, count: u32) -> bool {
-        let mut z = self.seed.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 32) < self.misses
+        (split_mix::word(self.seed, u64::from(count)) >> 32) < self.misses
     }
 }
 

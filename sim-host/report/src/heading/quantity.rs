@@ -22,13 +22,15 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 66] = [
+const QUANTITIES: [Quantity; 68] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
     quantity("block.inertia_ratio", "inertia ratio", "λ", ""),
     quantity("block.mass_kg", "mass", "*m*", "kg"),
     quantity("block.restitution", "coefficient of restitution", "η", ""),
+    quantity("block.restitution_scatter", "standard deviation of η", "", ""),
+    quantity("block.restitution_seed", "seed of the impacts", "", ""),
     quantity("block.initial_rotation_ratio", "initial rotation", "θ(0)/α", ""),
     quantity("block.initial_velocity_ratio", "initial velocity", "θ'(0)/(*p*α)", ""),
     quantity("device.N.mass_ratio", "mass ratio", "σ", ""),

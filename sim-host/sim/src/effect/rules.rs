@@ -137,6 +137,13 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
     let drivetrain = &subject.device.drivetrain;
     let mut lines = vec![uplift(subject)];
     lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));
+    let scatter = subject.loaded.restitution_scatter;
+    if scatter.is_on() {
+        let (deviation, seed) = (number(scatter.deviation), scatter.seed);
+        lines.push(format!(
+            "each impact draws its own η: normal about that with standard deviation {deviation}, 0 < η ≤ 1; seed {seed}"
+        ));
+    }
     if subject.device.device.kind == DeviceKind::ClutchedPair {
         let at_impact = match drivetrain.engagement {
             Engagement::Ideal => None,

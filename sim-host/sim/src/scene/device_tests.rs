@@ -57,6 +57,25 @@ fn an_empty_table_is_the_ideal_device() {
 }
 
 #[test]
+fn impacts_that_differ_go_beyond_the_ideal_device() {
+    let scene = |items: &[&str]| parsed(items).unwrap_or_else(|error| panic!("{error}"));
+    for items in [&[][..], &["block.restitution_seed=9"], &["block.restitution_scatter=0", "block.restitution_seed=9"]] {
+        let scene = scene(items);
+        assert!(scene.is_ideal(2) && scene.plain_block(2).is_some() && scene.first_beyond_ideal().is_none(), "{items:?}");
+        assert_eq!(scene.structure(2).restitution_scatter, RestitutionScatter::NONE);
+    }
+    let scattered = scene(&["block.restitution_scatter=0.02", "block.restitution_seed=9"]);
+    assert!(!scattered.is_ideal(2) && scattered.plain_block(2).is_none());
+    assert_eq!(scattered.structure(2).restitution_scatter, RestitutionScatter { deviation: 0.02, seed: 9 });
+    for of_ideal in [
+        "accuracy={ method = 'semi-implicit-euler', step_ratio = 1e-3 }",
+        "accuracy={ method = 'runge-kutta-4', step_ratio = 1e-3, events = 'step-end' }",
+    ] {
+        refused(&["block.restitution_scatter=0.02", of_ideal], &["ideal devices only", "block.restitution_scatter goes beyond"]);
+    }
+}
+
+#[test]
 fn engagements_and_losses_are_the_drivetrains() {
     assert_eq!(device(2, "engagement=rigid").drivetrain.engagement, Engagement::Rigid);
     assert_eq!(device(2, "engagement=overrunning").drivetrain.engagement, Engagement::Overrunning);

@@ -24,6 +24,7 @@ use sprag_shared::{
         state::{Limits, Stopped},
     },
     structure::{
+        RestitutionScatter,
         block::{Block, RECTANGLE_INERTIA_RATIO},
         drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support},
     },
@@ -96,6 +97,7 @@ fn machine(body: FullBody<f32>, kind: TransmissionKind, block: &Block, drivetrai
         body: AnyBody::Full(body),
         transmission: AnyTransmission { kind, parameters: black_box(parameters) },
         restitution: [super::RESTITUTION; 3],
+        scatter: RestitutionScatter::NONE,
         slenderness: super::SLENDERNESS,
         speed: 0.33,
         rest_speed: 3e-7,

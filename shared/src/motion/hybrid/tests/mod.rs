@@ -6,6 +6,7 @@ mod energy;
 mod ground;
 mod limits;
 mod methods;
+mod restitution_scatter;
 mod standing;
 mod support;
 
@@ -22,6 +23,7 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
+use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -68,6 +70,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
         geometry,
         device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         added_mass: AddedMass::NONE,
         rest_speed: REST_SPEED,
     }
