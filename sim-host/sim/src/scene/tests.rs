@@ -75,7 +75,7 @@ fn an_error_names_the_key_the_value_and_what_it_may_be() {
         ("block.restitution_scatter=-0.01", "block.restitution_scatter is -0.01", "from 0 to 0.5"),
         ("block.restitution_scatter=nan", "block.restitution_scatter is NaN", "from 0 to 0.5"),
         ("block.restitution_seed=-1", "block.restitution_seed", "expected u64"),
-        ("block.restitution_seed=1.5", "block.restitution_seed", "expected u64"),
+        ("block.restitution_seed=1.5", "block.restitution_seed", "a whole number"),
         ("block.restitution=bouncy", "block.restitution is \"bouncy\"", "geometric"),
         ("block.mass_kg=-3", "block.mass_kg is -3", "above 0 kg"),
         ("block.size_m=0", "block.size_m is 0", "from 0.001"),
