@@ -107,6 +107,12 @@ const ROWS: &[Row] = &[
         base: "clutched pair",
         kernel: "machine-ideal-pair",
     },
+    Row {
+        name: "actuation, coil",
+        set: &["PAIR,clutch={capacity_ratio=0.1},actuation={time_constant_s=0.1}}"],
+        base: "clutch",
+        kernel: "",
+    },
     Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
     Row { name: "support", set: &["PAIR,support_amplification=1.2}"], base: "clutched pair", kernel: "" },
     Row { name: "checks", set: &["PAIR}", "checks={}"], base: "clutched pair", kernel: "" },

@@ -196,7 +196,11 @@ class Actuation(Table):
     delay
         Kind of these two delays; inertial by default.
     rise_time_s
-        Time from first contact to full capacity; needs a capacity; from 0 to 10; 0.0 by default.
+        Time from first contact to full capacity, linearly; or give time_constant_s. Needs a capacity; from 0
+        to 10; 0.0 by default.
+    time_constant_s
+        Time constant τ of a capacity that rises as 1 − e^(−t/τ), that of a coil; or give rise_time_s. Needs a
+        capacity; from 0 to 10; 0.0 by default.
     dwell_s
         Time for which a clutch that has just moved stays so; from 0 to 10; 0.0 by default.
     miss_probability
@@ -216,6 +220,7 @@ class Actuation(Table):
     release_delay_s: float | None = None
     delay: Literal["inertial", "transport"] | None = None
     rise_time_s: float | None = None
+    time_constant_s: float | None = None
     dwell_s: float | None = None
     miss_probability: float | None = None
     miss_seed: int | None = None

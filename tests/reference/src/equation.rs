@@ -108,12 +108,10 @@ impl Model {
     pub fn capacity(&self, wheel: &Wheel, time: f64) -> (f64, f64) {
         let since = time - wheel.command.engaged_at;
         let full = self.device.capacity;
-        // The end of the rise is a clock, so that no step sees both.
-        if self.device.rise > 0.0 && since < self.device.rise * (1.0 - 1e-12) {
-            (full * since / self.device.rise, full / self.device.rise)
-        } else {
-            (full, 0.0)
-        }
+        // The end of a line is a clock, so that no step sees two.
+        let Some([(from, low), (to, high)]) = self.device.line(since) else { return (full, 0.0) };
+        let growth = full * (high - low) / (to - from);
+        (full * low + growth * (since - from), growth)
     }
 
     /// D of a flywheel that is not locked, m/s².

@@ -149,6 +149,7 @@ pub struct ActuationTable {
     pub release_delay_s: f64,
     pub delay: Option<String>,
     pub rise_time_s: f64,
+    pub time_constant_s: f64,
     pub dwell_s: f64,
     pub miss_probability: f64,
     pub miss_seed: u64,

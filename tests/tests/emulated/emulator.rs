@@ -199,6 +199,7 @@ fn effects() -> Vec<Effect> {
         release_delay: 0.01,
         delay: Delay::Transport,
         rise_time: 0.0,
+        time_constant: 0.0,
         dwell: 0.03,
         miss_probability: 0.25,
         miss_seed: 0x1234_5678_9abc_def0,
@@ -226,6 +227,10 @@ fn effects() -> Vec<Effect> {
             added_mass: gears,
             ..Effect::of("guided rack and carried mass", Drivetrain { rack: guided, ..Drivetrain::default() })
         },
+        Effect::of(
+            "friction clutch of a coil",
+            Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
+        ),
         Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
         Effect { scatter, ..Effect::of("impacts that differ", Drivetrain::default()) },

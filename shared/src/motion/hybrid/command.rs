@@ -54,12 +54,10 @@ impl<S: Real> Actuator<S> {
 /// Largest number of answers to one event: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 4;
 
-/// Time (s) until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+/// Time (s) until the line of a rising capacity ends, or overcomes the friction that holds a standing flywheel.
 fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>, block_held: bool) -> Option<S> {
-    if !wheel.coupling.is_engaged() || wheel.engaged_for >= parameters.rise_time {
-        return None;
-    }
-    let full = parameters.rise_time - wheel.engaged_for;
+    let line = parameters.line_at(wheel.engaged_for).filter(|_| wheel.coupling.is_engaged())?;
+    let end = line.time[1] - wheel.engaged_for;
     let (capacity, growth) = parameters.capacity_of(wheel);
     let held = match wheel.coupling {
         Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
@@ -67,9 +65,9 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
         Coupling::Open | Coupling::InPlay => false,
     };
     if !held || parameters.standing_friction(wheel).1 == S::ZERO {
-        return Some(full);
+        return Some(end);
     }
-    Some(((parameters.inertance * parameters.bearing_dry - capacity) / growth).smaller(full))
+    Some(((parameters.inertance * parameters.bearing_dry - capacity) / growth).smaller(end))
 }
 
 impl<S: Real> HybridSystem<S> {

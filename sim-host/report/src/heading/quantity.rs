@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 68] = [
+const QUANTITIES: [Quantity; 69] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -57,6 +57,7 @@ const QUANTITIES: [Quantity; 68] = [
     quantity("device.N.actuation.engagement_delay_s", "engagement delay", "", "s"),
     quantity("device.N.actuation.release_delay_s", "release delay", "", "s"),
     quantity("device.N.actuation.rise_time_s", "rise time", "", "s"),
+    quantity("device.N.actuation.time_constant_s", "time constant of the capacity", "", "s"),
     quantity("device.N.actuation.dwell_s", "dwell", "", "s"),
     quantity("device.N.actuation.miss_probability", "probability of a missed engagement", "", ""),
     quantity("device.N.actuation.miss_seed", "seed of missed engagements", "", ""),

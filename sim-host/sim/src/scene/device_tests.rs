@@ -129,6 +129,7 @@ fn rack_and_actuation_are_the_drivetrains() {
         release_delay: 0.02,
         delay: Delay::Transport,
         rise_time: 0.03,
+        time_constant: 0.0,
         dwell: 0.04,
         miss_probability: 0.5,
         miss_seed: 7,
@@ -201,7 +202,11 @@ fn contradictory_effects_are_refused_with_the_reason() {
     for engagement in ["engagement=rigid", "clutch.stiffness_ratio=10"] {
         let items = [&format!("device.2.{engagement}"), "device.2.actuation.rise_time_s=0.1"];
         refused(&items, &["device.2.actuation.rise_time_s", "only a capacity can rise"]);
+        let items = [&format!("device.2.{engagement}"), "device.2.actuation.time_constant_s=0.1"];
+        refused(&items, &["device.2.actuation.time_constant_s", "only a capacity can rise"]);
     }
+    let twice = "device.2.actuation={ rise_time_s = 0.1, time_constant_s = 0.1 }";
+    refused(&[capacity, twice], &["device.2.actuation.time_constant_s", "linearly or exponentially"]);
     refused(&["device.1.weight={ flywheels_on = \"block\" }"], &["device.1.weight.flywheels_ratio is missing"]);
     let both = "device.1.weight={ flywheels_ratio = 0.1, flywheels_on = \"block\", rack_ratio = 0.1, rack_on = \"block\" }";
     refused(&[both], &["device.1.weight.rack_on", "nothing turns the flywheels"]);

@@ -42,11 +42,12 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 /// - Support: a wall whose own frequency is 2.5 times that of the motion amplifies it by 1/(1 - 0.4²) = 1.19; base-slab averaging and
 ///   embedment of a building reduce it by as much (FEMA 440).
 /// - Rack: 0.01 of the weight and 0.05 1/s are rolling guides and their seals.
+/// - Coil: the torque of particle and friction clutches has time constants of about 0.1 s.
 /// - Delays: 20 ms is a fast electromagnetic clutch with its driver, 50 ms an ordinary one; every tenth engagement missed is a
 ///   poor sensor.
 /// - Weight: a flywheel of 0.02 of the block's mass and seven times its pinion's radius has a mass ratio of 0.5; the rack has
 ///   half of that mass.
-pub const VARIANTS: [Variant; 24] = [
+pub const VARIANTS: [Variant; 25] = [
     variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
     Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
     variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
@@ -116,6 +117,12 @@ pub const VARIANTS: [Variant; 24] = [
         "K = 1e4 m p², ζ = 0.1, 1 mm backlash, instant brake",
         PAIR,
         &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1, backlash_m = 0.001 }", INSTANT_BRAKE],
+    ),
+    variant(
+        "actuation",
+        "plates of 0.1 × block weight by a coil of 0.1 s, instant brake",
+        PAIR,
+        &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE, "device.N.actuation={ time_constant_s = 0.1 }"],
     ),
     variant("actuation", "delays of 20 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }"]),
     variant("actuation", "delays of 50 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.05, release_delay_s = 0.05 }"]),

@@ -67,6 +67,7 @@ const PROMPT: Actuation = Actuation {
     release_delay: 0.0,
     delay: Delay::Inertial,
     rise_time: 0.0,
+    time_constant: 0.0,
     dwell: 0.0,
     miss_probability: 0.0,
     miss_seed: 0,
