@@ -66,6 +66,7 @@ const ROWS: &[Row] = &[
         kernel: "",
     },
     Row { name: "impact", set: &["PAIR}", "block.restitution=\"momentum-balance\""], base: "clutched pair", kernel: "" },
+    Row { name: "scatter", set: &["PAIR}", "block.restitution_scatter=0.02"], base: "clutched pair", kernel: "" },
     Row {
         name: "vertical",
         set: &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],
@@ -105,6 +106,12 @@ const ROWS: &[Row] = &[
         set: &["PAIR,actuation={engagement_delay_s=0.02,release_delay_s=0.02}}"],
         base: "clutched pair",
         kernel: "machine-ideal-pair",
+    },
+    Row {
+        name: "actuation, coil",
+        set: &["PAIR,clutch={capacity_ratio=0.1},actuation={time_constant_s=0.1}}"],
+        base: "clutch",
+        kernel: "",
     },
     Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
     Row { name: "support", set: &["PAIR,support_amplification=1.2}"], base: "clutched pair", kernel: "" },

@@ -32,6 +32,11 @@ class Block(Table):
     restitution
         Ratio η of the angular velocities after and before an impact, or where it comes from; from 0 to 1;
         0.85 by default.
+    restitution_scatter
+        Standard deviation of η from impact to impact, each drawn from a normal distribution about
+        restitution, truncated to 0 < η ≤ 1; from 0 to 0.5; 0.0 by default.
+    restitution_seed
+        Seed of what impacts draw; of several specimens that of the first; from 0; 0 by default.
     initial_rotation_ratio
         Rotation at the start, θ/α; from -10 to 10; 0.0 by default.
     initial_velocity_ratio
@@ -52,6 +57,8 @@ class Block(Table):
     mass_kg: float | None = None
     geometry: Literal["full", "slender"] | None = None
     restitution: float | Literal["geometric", "momentum-balance"] | None = None
+    restitution_scatter: float | None = None
+    restitution_seed: int | None = None
     initial_rotation_ratio: float | None = None
     initial_velocity_ratio: float | None = None
 
@@ -189,7 +196,11 @@ class Actuation(Table):
     delay
         Kind of these two delays; inertial by default.
     rise_time_s
-        Time from first contact to full capacity; needs a capacity; from 0 to 10; 0.0 by default.
+        Time from first contact to full capacity, linearly; or give time_constant_s. Needs a capacity; from 0
+        to 10; 0.0 by default.
+    time_constant_s
+        Time constant τ of a capacity that rises as 1 − e^(−t/τ), that of a coil; or give rise_time_s. Needs a
+        capacity; from 0 to 10; 0.0 by default.
     dwell_s
         Time for which a clutch that has just moved stays so; from 0 to 10; 0.0 by default.
     miss_probability
@@ -209,6 +220,7 @@ class Actuation(Table):
     release_delay_s: float | None = None
     delay: Literal["inertial", "transport"] | None = None
     rise_time_s: float | None = None
+    time_constant_s: float | None = None
     dwell_s: float | None = None
     miss_probability: float | None = None
     miss_seed: int | None = None

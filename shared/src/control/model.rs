@@ -168,7 +168,7 @@ mod tests {
     use crate::structure::block::{Block, Geometry};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
-    use crate::structure::{REST_SPEED, Restitution};
+    use crate::structure::{REST_SPEED, Restitution, RestitutionScatter};
 
     fn structure(geometry: Geometry, mount: Mount, kinematics: KinematicsKind) -> Structure {
         Structure {
@@ -177,6 +177,7 @@ mod tests {
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
             added_mass: crate::structure::added_mass::AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         }
     }

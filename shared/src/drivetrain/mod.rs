@@ -11,6 +11,7 @@ pub mod friction;
 pub mod ideal;
 pub mod overrunning;
 pub mod rigid;
+pub mod rise;
 pub mod scaled_parameters;
 pub mod transmission;
 pub mod under_way;

@@ -1,6 +1,7 @@
 //! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
 use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
+use super::rise::{Line, whole};
 use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -39,6 +40,8 @@ pub struct ScaledParameters<S> {
     pub contact: S,
     /// Time to full capacity, s.
     pub rise_time: S,
+    /// Time constant of an exponential rise ([`super::rise`]), s; 0 of a linear one.
+    pub time_constant: S,
     /// Stiffness of the clutch, 1/s².
     pub stiffness: S,
     /// Damping, 1/s.
@@ -70,6 +73,7 @@ impl<S: Real> ScaledParameters<S> {
             }
             Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => {}
         }
+        let time_constant = S::of(actuation.time_constant);
         // ε^¾: far above rounding, far below what matters.
         let little = S::EPSILON.square_root() * S::EPSILON.square_root().square_root();
         ScaledParameters {
@@ -85,8 +89,9 @@ impl<S: Real> ScaledParameters<S> {
             brake: S::of(if stops_at_once { 0.0 } else { flywheel.brake_deceleration / size }),
             stops_at_once,
             capacity: S::of(capacity),
-            contact: S::of(if actuation.rise_time > 0.0 { capacity } else { 0.0 }) * little,
-            rise_time: S::of(actuation.rise_time),
+            contact: S::of(if actuation.rise_time + actuation.time_constant > 0.0 { capacity } else { 0.0 }) * little,
+            rise_time: if actuation.time_constant > 0.0 { whole(time_constant) } else { S::of(actuation.rise_time) },
+            time_constant,
             stiffness: S::of(stiffness),
             damping: S::of(damping),
             half_play: S::of(half_play),
@@ -108,11 +113,12 @@ impl<S: Real> ScaledParameters<S> {
 
     /// Capacity now and its growth.
     pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
-        if wheel.engaged_for >= self.rise_time {
+        let Some(Line { time: [from, to], share: [low, high] }) = self.line_at(wheel.engaged_for) else {
             return (self.capacity, S::ZERO);
-        }
-        let growth = (self.capacity - self.contact) / self.rise_time;
-        (self.contact + growth * wheel.engaged_for, growth)
+        };
+        let all = self.capacity - self.contact;
+        let growth = all * (high - low) / (to - from);
+        (self.contact + all * low + growth * (wheel.engaged_for - from), growth)
     }
 
     /// Coefficients of the present mode: rack, bearings, brakes and plates.

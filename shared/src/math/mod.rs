@@ -26,6 +26,7 @@ pub mod root;
 pub mod scalar;
 pub mod sign;
 pub mod sine32;
+pub mod split_mix;
 pub mod stumpff;
 pub mod tier;
 pub mod tiered;

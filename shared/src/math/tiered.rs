@@ -169,6 +169,7 @@ mod tests {
     use crate::method::taylor::Taylor;
     use crate::motion::state::{BlockState, Limits};
     use crate::observers::digest::Digest;
+    use crate::structure::RestitutionScatter;
     use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -184,6 +185,7 @@ mod tests {
             device,
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         };
         let system = structure.resolve().unwrap();

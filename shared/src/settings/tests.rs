@@ -23,6 +23,7 @@ use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::{Parameters, Phase, SafeState, Supervisor};
+use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -47,6 +48,7 @@ fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -
         device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

@@ -81,6 +81,7 @@ mod tests {
     use crate::equation::any_equation::AnyEquation;
     use crate::equation::body::FullBody;
     use crate::motion::ideal::IdealSystem;
+    use crate::structure::RestitutionScatter;
     use crate::structure::block::GRAVITY;
     use crate::structure::device::{DeviceKind, KinematicsKind};
     use crate::structure::restitution::Restitution;
@@ -116,6 +117,7 @@ mod tests {
             device: Device { kind: DeviceKind::Inerter, mass_ratio: 0.7, mount, kinematics: KinematicsKind::Consistent },
             added_mass,
             restitution: Restitution::MomentumBalance,
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         }
     }

@@ -93,6 +93,8 @@ pub struct Actuation {
     pub delay: Delay,
     /// From first contact to full capacity, linearly, s; 0 to 10. Needs a capacity.
     pub rise_time: f64,
+    /// Time constant of a capacity that rises as 1 − e^(−t/τ), s; 0 to 10, and 0 beside a linear rise. Needs a capacity.
+    pub time_constant: f64,
     /// A clutch that has just moved stays so for this long, s; 0 to 10.
     pub dwell: f64,
     /// Probability that an engagement is missed; 0 to 1.
@@ -161,10 +163,13 @@ impl Drivetrain {
             ("engagement_delay", actuation.engagement_delay),
             ("release_delay", actuation.release_delay),
             ("rise_time", actuation.rise_time),
+            ("time_constant", actuation.time_constant),
             ("dwell", actuation.dwell),
         ] {
             within(name, value, 10.0, "from 0 to 10 s")?;
         }
+        let rises_twice = actuation.rise_time > 0.0 && actuation.time_constant > 0.0;
+        require("time_constant", actuation.time_constant, !rises_twice, "0 s beside a linear rise")?;
         within("miss_probability", actuation.miss_probability, 1.0, "from 0 to 1")
     }
 }

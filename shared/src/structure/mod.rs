@@ -1,4 +1,4 @@
-//! Parameters of the structure: block, device with its mount, drivetrain, added mass, restitution; in SI units, each with its range.
+//! Parameters of the structure: block, device with its mount, drivetrain, added mass, restitution and its scatter; in SI units, each with its range.
 //!
 //! [`Structure`] holds all but the [`drivetrain`]. [`inertance`] and [`gear_teeth`] are for the design of a device. The room imports `math`
 //! and `equation`.
@@ -12,6 +12,7 @@ pub mod gear_teeth;
 pub mod inertance;
 pub mod mount;
 pub mod restitution;
+pub mod restitution_scatter;
 
 use added_mass::AddedMass;
 use block::{Block, Geometry};
@@ -25,6 +26,7 @@ use crate::math;
 use crate::math::scalar::Real;
 
 pub use restitution::Restitution;
+pub use restitution_scatter::RestitutionScatter;
 
 /// A block with its device.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +41,8 @@ pub struct Structure {
     pub added_mass: AddedMass,
     /// Impacts.
     pub restitution: Restitution,
+    /// How impacts differ; [`RestitutionScatter::NONE`] by default, and always in the loop of ideal devices.
+    pub restitution_scatter: RestitutionScatter,
     /// θ̇/(pα) below which an impact may end in rest; 1e-12 to 1e-2, [`REST_SPEED`] by default. What remains after it is
     /// summed in closed form. Flywheels that coast then see weaker impacts: peaks differ by up to 7e-6 at the default, 0.4 % at 1e-3.
     pub rest_speed: f64,

@@ -13,6 +13,7 @@ use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::hybrid::series::Series;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -93,7 +94,15 @@ fn structure(geometry: Geometry, kind: DeviceKind) -> Structure {
     let block = Block::new(6.0, 0.2, RECTANGLE_INERTIA_RATIO).expect("within range");
     let device = Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper };
     let restitution = Restitution::Constant(0.95);
-    Structure { block, geometry, device, added_mass: AddedMass::NONE, restitution, rest_speed: REST_SPEED }
+    Structure {
+        block,
+        geometry,
+        device,
+        added_mass: AddedMass::NONE,
+        restitution,
+        restitution_scatter: RestitutionScatter::NONE,
+        rest_speed: REST_SPEED,
+    }
 }
 
 /// Peak rotation by the loop for ideal devices.

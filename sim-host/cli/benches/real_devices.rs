@@ -13,6 +13,7 @@ use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -155,6 +156,7 @@ fn structure(geometry: Geometry, index: u32) -> Option<Structure> {
         },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     })
 }

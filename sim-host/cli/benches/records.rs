@@ -13,6 +13,7 @@ use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_loops::{Method, Precision};
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -96,6 +97,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structu
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     })
 }

@@ -7,6 +7,7 @@ pub use sprag_shared::method::taylor::TERMS;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, KinematicsKind};
@@ -45,6 +46,7 @@ impl PulsedBlock {
             },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.plain.restitution),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         })
     }

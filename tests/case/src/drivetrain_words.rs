@@ -19,12 +19,13 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
     out.numbers(&numbers)?;
     out.numbers(&[flywheel.viscous_rate, flywheel.dry_deceleration, flywheel.brake_deceleration])?;
     out.numbers(&[rack.guided_mass_ratio, rack.viscous, rack.dry_ratio])?;
-    let Actuation { engagement_delay, release_delay, delay, rise_time, dwell, miss_probability, miss_seed } = *actuation;
+    let Actuation { engagement_delay, release_delay, delay, rise_time, time_constant, dwell, miss_probability, miss_seed } =
+        *actuation;
     out.numbers(&[engagement_delay, release_delay, rise_time, dwell, miss_probability])?;
     out.word(miss_seed as u32)?;
     out.word((miss_seed >> 32) as u32)?;
     out.word(u32::from(delay == Delay::Transport))?;
-    out.numbers(&[support.amplification])
+    out.numbers(&[support.amplification, time_constant])
 }
 
 pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
@@ -53,11 +54,13 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         release_delay: input.number("release_delay")?,
         delay: Delay::Inertial,
         rise_time: input.number("rise_time")?,
+        time_constant: 0.0,
         dwell: input.number("dwell")?,
         miss_probability: input.number("miss_probability")?,
         miss_seed: u64::from(input.word("miss_seed")?) | u64::from(input.word("the upper half of miss_seed")?) << 32,
     };
     let delay = input.kind("delay", &[Delay::Inertial, Delay::Transport])?;
     let support = Support { amplification: input.number("support_amplification")? };
-    Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, ..actuation }, support })
+    let time_constant = input.number("time_constant")?;
+    Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, time_constant, ..actuation }, support })
 }

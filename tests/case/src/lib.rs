@@ -123,8 +123,8 @@ pub fn run(words: &[u32], observer: &mut dyn Observer<f32>) -> Result<RunEnd, Ca
 }
 
 impl Case<'_> {
-    /// Runs the case and reports it to `observer`, piece after piece; times start anew with each. Of a device that is not ideal, or over ground
-    /// that moves vertically too, it is shown the device.
+    /// Runs the case and reports it to `observer`, piece after piece; times start anew with each. Of a device that is not ideal, over ground that
+    /// moves vertically too, or with impacts that differ, it is shown the device.
     ///
     /// # Errors
     /// [`CaseError::Parameter`] names the first parameter outside its range; [`CaseError::Method`] the method that does not
@@ -134,9 +134,9 @@ impl Case<'_> {
         if self.is_ideal() { ideal::run(self, observer) } else { hybrid::run(self, observer) }
     }
 
-    /// The paper's device over ground that moves only horizontally.
+    /// The paper's device over ground that moves only horizontally, with impacts that are all alike.
     pub fn is_ideal(&self) -> bool {
-        self.drivetrain == Drivetrain::default() && !self.ground.is_vertical()
+        self.drivetrain == Drivetrain::default() && !self.ground.is_vertical() && !self.structure.restitution_scatter.is_on()
     }
 
     /// Everything that is not the structure's or the drivetrain's own to check.

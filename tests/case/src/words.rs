@@ -1,4 +1,4 @@
-//! The words of a case, in order: 46 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
+//! The words of a case, in order: 50 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
 //! kinds count from 0 in the order in which their types list them. What a kind does not need is written as 0 and not looked
 //! at.
 //!
@@ -14,28 +14,29 @@
 //! | 25-29 | actuation: engagement delay, release delay, rise time, dwell, miss probability |
 //! | 30, 31 | its miss seed, lower and upper half |
 //! | 32 | its delay (kind) |
-//! | 33 | support: amplification |
-//! | 34-36 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
-//! | 37-39 | initially (0 rest, 1 released), θ, θ̇ |
-//! | 40-42 | method (kind), step, free time |
-//! | 43-45 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
-//! | 46- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
+//! | 33, 34 | support: amplification; actuation: time constant |
+//! | 35-37 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
+//! | 38-40 | its scatter: deviation, and seed, lower and upper half |
+//! | 41-43 | initially (0 rest, 1 released), θ, θ̇ |
+//! | 44-46 | method (kind), step, free time |
+//! | 47-49 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
+//! | 50- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
 //! | then | the vertical motion: 10 words for each piece, shape and nine numbers; or as many samples |
 
 use crate::codec::{Reader, Writer};
 use crate::{Case, CaseError, FixedMethod, Initially, drivetrain_words, ground_words};
-use sprag_shared::structure::Structure;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
+use sprag_shared::structure::{RestitutionScatter, Structure};
 
 /// "CASE", to be distinguished from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
 
 /// Of the words' meaning.
-pub const VERSION: u32 = 5;
+pub const VERSION: u32 = 7;
 
 impl<'a> Case<'a> {
     /// Writes the case to the front of `words` and gives the number of words. Numbers are rounded to single precision.
@@ -46,7 +47,7 @@ impl<'a> Case<'a> {
         let mut out = Writer { words, count: 0 };
         out.word(MAGIC)?;
         out.word(VERSION)?;
-        let Structure { block, geometry, device, added_mass, restitution, rest_speed } = &self.structure;
+        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, rest_speed } = &self.structure;
         out.numbers(&[block.size(), block.slenderness(), block.inertia_ratio()])?;
         out.word(*geometry as u32)?;
         out.word(device.kind as u32)?;
@@ -67,7 +68,9 @@ impl<'a> Case<'a> {
             Restitution::MomentumBalance => (2, 0.0),
         };
         out.word(rule)?;
-        out.numbers(&[eta, *rest_speed])?;
+        out.numbers(&[eta, *rest_speed, restitution_scatter.deviation])?;
+        out.word(restitution_scatter.seed as u32)?;
+        out.word((restitution_scatter.seed >> 32) as u32)?;
         let (released, rotation, velocity) = match self.initially {
             Initially::Rest => (0, 0.0, 0.0),
             Initially::Released { rotation, velocity } => (1, rotation, velocity),
@@ -118,6 +121,10 @@ impl<'a> Case<'a> {
             _ => Restitution::MomentumBalance,
         };
         let rest_speed = input.number("rest_speed")?;
+        let restitution_scatter = RestitutionScatter {
+            deviation: input.number("restitution_scatter")?,
+            seed: u64::from(input.word("restitution_seed")?) | u64::from(input.word("the upper half of restitution_seed")?) << 32,
+        };
         let released = input.kind("start", &[false, true])?;
         let (rotation, velocity) = (input.single("rotation")?, input.single("velocity")?);
         let methods =
@@ -129,7 +136,7 @@ impl<'a> Case<'a> {
             return Err(CaseError::Trailing(input.0.len() as u32));
         }
         let device = Device { kind, mass_ratio, mount, kinematics };
-        let structure = Structure { block, geometry, device, added_mass, restitution, rest_speed };
+        let structure = Structure { block, geometry, device, added_mass, restitution, restitution_scatter, rest_speed };
         let initially = if released { Initially::Released { rotation, velocity } } else { Initially::Rest };
         Ok(Case { structure, drivetrain, initially, method, step, ground, free_time })
     }

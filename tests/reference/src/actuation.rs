@@ -62,9 +62,9 @@ impl Command {
         self.due = self.due.or(Some(self.under_way[0].0));
     }
 
-    /// When its capacity is full, if it rises at `time`.
-    pub fn full_at(&self, device: &Device) -> f64 {
-        self.engaged_at + device.rise
+    /// When the line ends by which its capacity rises at `time`.
+    pub fn line_ends(&self, device: &Device, time: f64) -> Option<f64> {
+        device.line(time - self.engaged_at).map(|[_, (end, _)]| self.engaged_at + end)
     }
 }
 

@@ -30,7 +30,7 @@ pub enum Coupling {
 }
 
 /// A device.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Device {
     /// Kind of coupling.
     pub coupling: Coupling,
@@ -56,8 +56,8 @@ pub struct Device {
     pub brake: f64,
     /// Capacity of the plates, m/s²; infinite without plates.
     pub capacity: f64,
-    /// Time to full capacity, s.
-    pub rise: f64,
+    /// When the lines by which the capacity rises begin and end after engagement, s, and what share of it there is then.
+    pub rise: Vec<(f64, f64)>,
     /// Delay from a command to engage, s.
     pub engagement_delay: f64,
     /// Delay from a command to release, s.
@@ -76,6 +76,11 @@ impl Device {
     /// Clutches that obey Eq. 10.
     pub fn is_commanded(&self) -> bool {
         !matches!(self.coupling, Coupling::None | Coupling::Inerter | Coupling::Overrunning)
+    }
+
+    /// Start and end of the line by which a capacity rises so long after engagement, each with its share.
+    pub fn line(&self, since: f64) -> Option<[(f64, f64); 2]> {
+        self.rise.windows(2).find(|line| since < line[1].0 * (1.0 - 1e-12)).map(|line| [line[0], line[1]])
     }
 
     /// Locking is all there is: no plates that might slip.
@@ -153,8 +158,7 @@ impl Device {
             Some(NumberOr::Word(word)) if word == "instant" => f64::INFINITY,
             Some(NumberOr::Word(word)) => return Err(format!("brake {word}")),
         };
-        let ActuationTable { engagement_delay_s, release_delay_s, rise_time_s, dwell_s, miss_probability, miss_seed, .. } =
-            table.actuation;
+        let ActuationTable { engagement_delay_s, release_delay_s, dwell_s, miss_probability, miss_seed, .. } = table.actuation;
         let transport = match table.actuation.delay.as_deref() {
             None | Some("inertial") => false,
             Some("transport") => true,
@@ -179,7 +183,7 @@ impl Device {
             bearing_dry: table.flywheel.dry_deceleration_m_s2,
             brake,
             capacity: per * capacity,
-            rise: rise_time_s,
+            rise: rise(table.actuation.rise_time_s, table.actuation.time_constant_s),
             engagement_delay: engagement_delay_s,
             release_delay: release_delay_s,
             transport,
@@ -206,6 +210,18 @@ impl Device {
             }
         }
     }
+}
+
+/// A straight rise, or one by 32 lines through 1 − e^(−t/τ) where the root of what is missing is a multiple of 1/32, the last of which
+/// goes on for 2τ after the last but one.
+fn rise(linear: f64, time_constant: f64) -> Vec<(f64, f64)> {
+    if time_constant == 0.0 {
+        return if linear > 0.0 { vec![(0.0, 0.0), (linear, 1.0)] } else { Vec::new() };
+    }
+    let root = |k: u32| 1.0 - f64::from(k) / 32.0;
+    let mut lines: Vec<(f64, f64)> = (0..32).map(|k| (-2.0 * time_constant * root(k).ln(), 1.0 - root(k) * root(k))).collect();
+    lines.push((lines[31].0 + 2.0 * time_constant, 1.0));
+    lines
 }
 
 /// Eq. 9.

@@ -62,7 +62,12 @@ impl Model {
         let before = energy(self, state);
         let direction = state.velocity().signum();
         let counted = if self.device.only_locks() { locked } else { 0 };
-        state.values[VELOCITY] *= self.device.restitution(&self.block, self.restitution, counted);
+        let mut restitution = self.device.restitution(&self.block, self.restitution, counted);
+        if state.velocity().abs() >= self.counted {
+            state.impacts += 1;
+            restitution = self.scatter.drawn(state.impacts, restitution);
+        }
+        state.values[VELOCITY] *= restitution;
         state.block = BlockMode::Rocking { side: direction, direction };
         if self.device.only_locks() {
             self.follow_rack(state);

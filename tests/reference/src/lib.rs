@@ -26,6 +26,7 @@ pub mod pulse;
 pub mod random;
 pub mod record;
 mod runner;
+pub mod scatter;
 pub mod scene;
 pub mod simulate;
 pub mod step;

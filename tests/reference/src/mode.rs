@@ -69,6 +69,8 @@ pub struct State {
     pub armed: bool,
     /// Engagements commanded so far.
     pub engagements: u32,
+    /// Impacts so far that have a number.
+    pub impacts: u32,
     /// The flywheel whose force has just reached the capacity of its plates, or zero (overrunning): it slips or parts, whatever
     /// rounding says.
     pub slipped: Option<usize>,

@@ -1,5 +1,8 @@
 //! SplitMix64 (Steele, Lea and Flood 2014).
 
+/// By which its state grows from one word to the next.
+pub const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+
 /// A source of random numbers that a seed decides.
 #[derive(Clone, Copy, Debug)]
 pub struct Random(u64);
@@ -12,7 +15,7 @@ impl Random {
 
     /// The next 64 bits.
     pub fn next_u64(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        self.0 = self.0.wrapping_add(GAMMA);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -58,6 +58,7 @@ impl<'a> Runner<'a> {
             drive: direction,
             armed: true,
             engagements: 0,
+            impacts: 0,
             slipped: None,
         };
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
@@ -108,9 +109,9 @@ impl<'a> Runner<'a> {
             if let Some(due) = wheel.command.due {
                 next = next.min(due);
             }
-            let full = wheel.command.full_at(&self.model.device);
-            if self.model.device.rise > 0.0 && wheel.link != Link::Open && full > self.state.time {
-                next = next.min(full);
+            let line = wheel.command.line_ends(&self.model.device, self.state.time);
+            if let Some(end) = line.filter(|end| wheel.link != Link::Open && *end > self.state.time) {
+                next = next.min(end);
             }
         }
         next

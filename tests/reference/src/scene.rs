@@ -60,6 +60,10 @@ pub struct BlockTable {
     pub inertia_ratio: Option<f64>,
     pub geometry: Option<String>,
     pub restitution: Option<NumberOr>,
+    #[serde(default)]
+    pub restitution_scatter: f64,
+    #[serde(default)]
+    pub restitution_seed: u64,
     pub mass_kg: Option<f64>,
     #[serde(default)]
     pub initial_rotation_ratio: f64,
@@ -145,6 +149,7 @@ pub struct ActuationTable {
     pub release_delay_s: f64,
     pub delay: Option<String>,
     pub rise_time_s: f64,
+    pub time_constant_s: f64,
     pub dwell_s: f64,
     pub miss_probability: f64,
     pub miss_seed: u64,

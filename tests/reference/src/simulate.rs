@@ -10,6 +10,7 @@ use crate::ground::Ground;
 use crate::guard::Guard;
 use crate::ledger::Ledger;
 use crate::runner::Runner;
+use crate::scatter::Scatter;
 use crate::scene::Scene;
 
 /// How a run ended, in Sprag's words.
@@ -57,7 +58,9 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     let unit = p * bare.slenderness;
     let rest_speed = scene.run.rest_speed_ratio.unwrap_or(1e-6) * unit;
     let overturned = point_of_no_return(&block, &device, &horizontal, &vertical);
-    let model = Model { block, device, restitution, rest_speed, overturned, horizontal, vertical };
+    let counted = 1e-6 * block.frequency_parameter() * block.slenderness;
+    let scatter = Scatter::of(&scene.block);
+    let model = Model { block, device, restitution, scatter, counted, rest_speed, overturned, horizontal, vertical };
     let rotation = scene.block.initial_rotation_ratio * bare.slenderness;
     let velocity = scene.block.initial_velocity_ratio * unit;
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);

@@ -1,5 +1,6 @@
 //! Blocks and devices.
 
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -19,6 +20,7 @@ pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass
         device: Device { kind: device, mass_ratio, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

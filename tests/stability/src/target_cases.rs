@@ -3,6 +3,7 @@
 use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
 use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -34,6 +35,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structur
         device: Device { kind, mass_ratio, kinematics: KinematicsKind::Consistent, ..Device::NONE },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

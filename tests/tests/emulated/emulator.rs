@@ -10,6 +10,7 @@ use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
 use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -22,7 +23,15 @@ const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::
 /// σ = 0.5, η = 0.85.
 fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
     let device = Device { kind, mass_ratio: 0.5, ..Device::NONE };
-    Structure { block, geometry, device, added_mass: AddedMass::NONE, restitution: Restitution::Constant(0.85), rest_speed: 1e-6 }
+    Structure {
+        block,
+        geometry,
+        device,
+        added_mass: AddedMass::NONE,
+        restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
+        rest_speed: 1e-6,
+    }
 }
 
 /// A slender block of p = 1/s under one cycle of sine with ω/p and a_g/(gα).
@@ -167,13 +176,15 @@ struct Effect {
     drivetrain: Drivetrain,
     method: FixedMethod,
     restitution: Restitution,
+    scatter: RestitutionScatter,
     added_mass: AddedMass,
 }
 
 impl Effect {
     fn of(name: &'static str, drivetrain: Drivetrain) -> Effect {
         let restitution = Restitution::Constant(0.85);
-        Effect { name, drivetrain, method: FixedMethod::RungeKutta4, restitution, added_mass: AddedMass::NONE }
+        let (method, scatter) = (FixedMethod::RungeKutta4, RestitutionScatter::NONE);
+        Effect { name, drivetrain, method, restitution, scatter, added_mass: AddedMass::NONE }
     }
 }
 
@@ -188,6 +199,7 @@ fn effects() -> Vec<Effect> {
         release_delay: 0.01,
         delay: Delay::Transport,
         rise_time: 0.0,
+        time_constant: 0.0,
         dwell: 0.03,
         miss_probability: 0.25,
         miss_seed: 0x1234_5678_9abc_def0,
@@ -200,6 +212,7 @@ fn effects() -> Vec<Effect> {
         Drivetrain { rack: Rack { guided_mass_ratio: 0.05, ..rack }, actuation: Actuation { rise_time: 0.02, ..late }, ..plates };
     let gears = AddedMass { mass_ratio: 0.05, height: 1.0 };
     let balance = Restitution::MomentumBalance;
+    let scatter = RestitutionScatter { deviation: 0.05, seed: 1 << 40 | 3 };
     vec![
         Effect::of("rigid", rigid),
         Effect::of("overrunning", of(Engagement::Overrunning, coasting)),
@@ -214,9 +227,14 @@ fn effects() -> Vec<Effect> {
             added_mass: gears,
             ..Effect::of("guided rack and carried mass", Drivetrain { rack: guided, ..Drivetrain::default() })
         },
+        Effect::of(
+            "friction clutch of a coil",
+            Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
+        ),
         Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
-        Effect { restitution: balance, added_mass: gears, ..Effect::of("all together", all) },
+        Effect { scatter, ..Effect::of("impacts that differ", Drivetrain::default()) },
+        Effect { restitution: balance, scatter, added_mass: gears, ..Effect::of("all together", all) },
     ]
 }
 
@@ -250,10 +268,11 @@ fn every_effect_is_the_same_on_the_board() {
     // A seed without a probability changes nothing but the loop.
     let seed = Drivetrain { actuation: Actuation { miss_seed: 7, ..Actuation::default() }, ..Drivetrain::default() };
     let mut hashes = [Drivetrain::default(), seed].map(|drivetrain| hash(&real_device(&record, drivetrain))).to_vec();
-    for Effect { name, drivetrain, method, restitution, added_mass } in effects() {
+    for Effect { name, drivetrain, method, restitution, scatter, added_mass } in effects() {
         for geometry in [Geometry::Full, Geometry::Slender] {
             let base = real_device(&record, drivetrain);
-            let case = Case { structure: Structure { geometry, restitution, added_mass, ..base.structure }, method, ..base };
+            let structure = Structure { geometry, restitution, restitution_scatter: scatter, added_mass, ..base.structure };
+            let case = Case { structure, method, ..base };
             compare(&format!("{name} {geometry:?}"), &case);
             let missed = case.run(&mut ()).unwrap().missed;
             assert_eq!(missed > 0, drivetrain.actuation.miss_probability > 0.0, "{name} {geometry:?}: {missed} missed");

@@ -12,6 +12,7 @@ use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::ledger::{Account, Clutching};
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -81,6 +82,7 @@ fn structures(geometry: Geometry) -> Vec<Structure> {
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Consistent },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(restitution),
+            restitution_scatter: RestitutionScatter { deviation: if index == 1 { 0.05 } else { 0.0 }, seed: 5 },
             rest_speed: REST_SPEED,
         }
     };

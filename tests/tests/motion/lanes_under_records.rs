@@ -7,6 +7,7 @@ use sprag_loops::{Method, Precision};
 use sprag_shared::math;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -42,6 +43,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, (size, slenderness, restituti
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

@@ -8,6 +8,7 @@ use crate::control::estimation::estimate::Estimate;
 use crate::control::law::Situation;
 use crate::control::law::signs::Signs;
 use crate::math::sign::Sign;
+use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -28,6 +29,7 @@ pub fn structure() -> Structure {
         },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

@@ -10,6 +10,7 @@ use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
 use crate::observers::peaks::Peaks;
+use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -93,6 +94,7 @@ fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
         device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

@@ -7,6 +7,7 @@ use crate::drivetrain::under_way::UnderWay;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
+use crate::math::split_mix;
 use crate::motion::observer::Observer;
 use crate::motion::state::Phase;
 use crate::structure::drivetrain::{Actuation, Delay};
@@ -44,25 +45,19 @@ impl<S: Real> Actuator<S> {
         }
     }
 
-    /// Whether engagement number `count` is missed: SplitMix64 (Steele, Lea and Flood 2014) of seed and number, so that it depends
-    /// on nothing else.
+    /// Whether engagement number `count` is missed: SplitMix64 of seed and number, so that it depends on nothing else.
     pub fn misses(&self, count: u32) -> bool {
-        let mut z = self.seed.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 32) < self.misses
+        (split_mix::word(self.seed, u64::from(count)) >> 32) < self.misses
     }
 }
 
 /// Largest number of answers to one event: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 4;
 
-/// Time (s) until a rising capacity is full, or overcomes the friction that holds a standing flywheel.
+/// Time (s) until the line of a rising capacity ends, or overcomes the friction that holds a standing flywheel.
 fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>, block_held: bool) -> Option<S> {
-    if !wheel.coupling.is_engaged() || wheel.engaged_for >= parameters.rise_time {
-        return None;
-    }
-    let full = parameters.rise_time - wheel.engaged_for;
+    let line = parameters.line_at(wheel.engaged_for).filter(|_| wheel.coupling.is_engaged())?;
+    let end = line.time[1] - wheel.engaged_for;
     let (capacity, growth) = parameters.capacity_of(wheel);
     let held = match wheel.coupling {
         Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
@@ -70,9 +65,9 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
         Coupling::Open | Coupling::InPlay => false,
     };
     if !held || parameters.standing_friction(wheel).1 == S::ZERO {
-        return Some(full);
+        return Some(end);
     }
-    Some(((parameters.inertance * parameters.bearing_dry - capacity) / growth).smaller(full))
+    Some(((parameters.inertance * parameters.bearing_dry - capacity) / growth).smaller(end))
 }
 
 impl<S: Real> HybridSystem<S> {

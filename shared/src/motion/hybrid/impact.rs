@@ -23,7 +23,8 @@ impl<S: Real> HybridSystem<S> {
     ) -> S {
         let motion = &mut state.motion;
         let incoming = motion.velocity;
-        if incoming.abs() >= self.counted_speed {
+        let counts = incoming.abs() >= self.counted_speed;
+        if counts {
             motion.impacts += 1;
         }
         // A turn and a hit in one ulp leave the direction of before the turn.
@@ -33,7 +34,12 @@ impl<S: Real> HybridSystem<S> {
             self.body.to_terminal(&configuration, incoming)
         };
         let engaged = if self.transmission.traits().through_impacts { state.device.locked() } else { 0 };
-        motion.velocity = self.restitution[engaged.min(2) as usize] * incoming;
+        let mut restitution = self.restitution[engaged.min(2) as usize];
+        // Those that do not count have no number, and nothing to scatter.
+        if counts && self.scatter.is_on() {
+            restitution = S::of(self.scatter.draw(motion.impacts, restitution.to_f64()));
+        }
+        motion.velocity = restitution * incoming;
         motion.side = motion.direction;
         self.look_at_drive(state);
         let velocity = state.motion.velocity;

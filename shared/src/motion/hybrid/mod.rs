@@ -39,6 +39,7 @@ use crate::method::step_grid::next_stop;
 use crate::motion::device_snapshot::Snapshot;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
+use crate::structure::RestitutionScatter;
 use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
 use seen::Seen;
@@ -52,6 +53,8 @@ pub struct HybridSystem<S> {
     pub transmission: AnyTransmission<S>,
     /// Velocity after an impact over that before, with 0, 1 and 2 flywheels engaged through it; each 0 to 1.
     pub restitution: [S; 3],
+    /// How that differs from impact to impact.
+    pub scatter: RestitutionScatter,
     /// α, rad: the size of a rotation that matters.
     pub slenderness: S,
     /// pα, rad/s: the size of an angular velocity that matters.

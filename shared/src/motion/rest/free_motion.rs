@@ -85,6 +85,7 @@ impl<I: FirstIntegral> FreeMotion<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::structure::RestitutionScatter;
     use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 
@@ -137,6 +138,7 @@ mod tests {
                     },
                     added_mass: AddedMass::NONE,
                     restitution: Restitution::Constant(0.93),
+                    restitution_scatter: RestitutionScatter::NONE,
                     rest_speed: REST_SPEED,
                 };
                 let (followed, _) = followed(&structure, rotation, velocity);

@@ -21,7 +21,6 @@ use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
 use sprag_sim::scene::Scene;
-use sprag_studies::statistics::quantile;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
@@ -30,6 +29,7 @@ use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
+use super::specimens::{scatter, specimen_count};
 use super::thread_arguments::ThreadArguments;
 
 /// Run the controller of a scene in closed loop.
@@ -45,7 +45,7 @@ pub struct LoopArguments {
     /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
-    /// Run so many specimens of the sensors, each with noise and errors of its own.
+    /// Run so many specimens of the sensors, each with noise and errors of its own, and with other impacts where these scatter.
     #[arg(long, value_name = "N", value_parser = specimen_count)]
     pub monte_carlo: Option<NonZeroUsize>,
     /// Threads.
@@ -57,14 +57,6 @@ pub struct LoopArguments {
     /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
-}
-
-/// The most specimens of the sensors.
-const MOST_SPECIMENS: u64 = 1_000_000_000;
-
-fn specimen_count(text: &str) -> Result<NonZeroUsize, String> {
-    let count = super::whole_number(text, 1, MOST_SPECIMENS)?;
-    NonZeroUsize::new(count as usize).ok_or_else(|| "must not be 0".to_owned())
 }
 
 /// What `summary.json` says of the loops.
@@ -243,14 +235,7 @@ fn monte_carlo(
                 ending.faults.len().to_string(),
             ]);
         }
-        let at = |share: f64| quantile(&peaks, share).filter(|value| value.is_finite());
-        report.summary.monte_carlo = Some(sprag_sim::closed_loop::report::Scatter {
-            specimens: count.get(),
-            overturned,
-            peak_rotation_05: at(0.05),
-            peak_rotation_median: at(0.5),
-            peak_rotation_95: at(0.95),
-        });
+        report.summary.monte_carlo = Some(scatter(count, &peaks, overturned));
     }
     progress.finish();
     Ok(table)

@@ -47,6 +47,7 @@ pub mod schema;
 pub mod sensitivity;
 pub mod similar;
 pub mod simulate;
+mod specimens;
 pub mod study_input;
 pub mod synthesize;
 pub mod thread_arguments;

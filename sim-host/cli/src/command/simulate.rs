@@ -1,6 +1,9 @@
 //! `sprag simulate`: one scene, every device, a summary, a history and a picture.
 
+use std::num::NonZeroUsize;
+
 use clap::Args;
+use serde::Serialize;
 use sprag_report::heading::title;
 use sprag_report::output::{ResultFolder, Subject};
 use sprag_report::plot::{energy_figure, history_figure};
@@ -8,8 +11,9 @@ use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, change, number};
 use sprag_sim::history::{History, write_csv};
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::record::{RecordSummary, warning_lines};
+use sprag_sim::record::warning_lines;
 use sprag_sim::scene::Scene;
+use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::energy::write_energy;
 use sprag_sim::simulation::{DeviceRun, simulate};
 
@@ -17,15 +21,18 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
-use super::report::{Report, Runs, SceneInput};
+use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
+use super::specimens::{self, Scattered, monte_carlo, specimen_count};
+use super::thread_arguments::ThreadArguments;
 
 /// Simulate a scene: every device under the same ground motion.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Examples:\n  sprag simulate scenes/near_fault.toml\n  \
     sprag simulate scenes/record.toml --record RSN181_IMPVALL.H_H-E06230.AT2 --out out/imperial\n  \
-    sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n\n\
-    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --png the pictures \
+    sprag simulate scenes/figure10.toml --set accuracy.method=runge-kutta-4 --set accuracy.step_ratio=1e-3\n  \
+    sprag simulate scenes/near_fault.toml --set block.restitution_scatter=0.02 --monte-carlo 200\n\n\
+    Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --monte-carlo also monte_carlo.csv; with --png the pictures \
     as .png too.")]
 pub struct SimulateArguments {
     /// The scene.
@@ -37,6 +44,12 @@ pub struct SimulateArguments {
     /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
+    /// Run so many specimens of a block whose impacts differ (block.restitution_scatter), with one seed after the other.
+    #[arg(long, value_name = "N", value_parser = specimen_count)]
+    pub monte_carlo: Option<NonZeroUsize>,
+    /// Threads of these.
+    #[command(flatten)]
+    pub threads: ThreadArguments,
     /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
@@ -48,15 +61,28 @@ pub struct SimulateArguments {
 impl Run for SimulateArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let mut folder = self.output.folder_at(&self.scene.scene, "simulate", &self.accuracy)?;
-        let mut warnings = context.warned(self.scene.load(None)?.warnings());
+        let asked = self.scene.load(None)?;
+        if self.monte_carlo.is_some() {
+            specimens::check(&asked)?;
+        }
+        let mut warnings = context.warned(asked.warnings());
         let interrupt = context.interrupt;
-        let Simulated { scene, subject, records, mut runs } =
+        let Simulated { scene, ground, subject, mut runs } =
             self.accuracy.run(context, |change| simulated(self, change, &mut folder, interrupt))?;
-        warnings.extend(context.warned(warning_lines(&records)));
+        warnings.extend(context.warned(warning_lines(&ground.records)));
+        let pool = self.threads.pool()?;
+        let specimens = self.monte_carlo.map(|count| monte_carlo(&pool, (&scene, &ground), count, interrupt)).transpose()?;
         let mut report = Report::new("simulate", &folder, &self.output)?;
+        let scattered = match &specimens {
+            Some((table, scattered)) => {
+                report.table("monte_carlo", table)?;
+                Some(&scattered[..])
+            }
+            None => None,
+        };
         let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
         let input = SceneInput { scene: &scene.file };
-        report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
+        report.summary(input, &ground.records, &warnings, &subject, Answer { monte_carlo: scattered, runs: &runs })?;
         report.file("history.csv", |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
         let picture = report.picture("history", history_figure(title(&scene), &histories, scene.file.output.time_axis.into()))?;
         if scene.file.output.energy {
@@ -64,6 +90,7 @@ impl Run for SimulateArguments {
             report.picture("energy", energy_figure(title(&scene), &runs))?;
         }
         report.print(device_table(&runs).for_terminal());
+        scattered.iter().flat_map(|all| all.iter()).for_each(|device| report.print(device.line()));
         for run in &runs {
             if let Some(error) = &run.error {
                 report.print(format_args!("device `{}`: {}", run.device, error.words(run.peak_rotation)));
@@ -88,11 +115,19 @@ impl Run for SimulateArguments {
     }
 }
 
+/// What `summary.json` says of the runs.
+#[derive(Serialize)]
+struct Answer<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    monte_carlo: Option<&'a [Scattered]>,
+    runs: &'a [DeviceRun],
+}
+
 /// A scene that was run.
 struct Simulated {
     scene: Scene,
+    ground: GroundMotions,
     subject: Subject,
-    records: Vec<RecordSummary>,
     runs: Vec<DeviceRun>,
 }
 
@@ -108,10 +143,14 @@ fn simulated(
     arguments.records.apply(&mut scene)?;
     let ground = scene.ground_motions()?;
     // Where the results go is tried before the work, not after it.
-    let claim = claim_of_scene("simulate", &arguments.scene.scene, &scene, &scene.file, &["history", "energy"], &[])?;
+    let names = &["history", "energy", "monte_carlo"];
+    let mut claim = claim_of_scene("simulate", &arguments.scene.scene, &scene, &scene.file, names, &[])?;
+    if arguments.monte_carlo.is_some() {
+        claim.subject = claim.subject.with("monte_carlo", &arguments.monte_carlo)?;
+    }
     folder.open(&claim)?;
     let runs = simulate(&scene, &ground, interrupt)?;
-    Ok(Simulated { scene, subject: claim.subject, records: ground.records, runs })
+    Ok(Simulated { scene, ground, subject: claim.subject, runs })
 }
 
 /// The friction that impacts and jolts need under the toe, device by device, where nobody has said how much there is.

@@ -236,3 +236,41 @@ fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
     assert_eq!(run["monte_carlo"]["specimens"], 3);
     assert!(run["peak_change"].as_f64().unwrap().abs() < 0.05);
 }
+
+#[test]
+fn specimens_of_impacts_are_those_of_their_seeds() {
+    let folder = tempfile::tempdir().unwrap();
+    let scattered = ["--set", "block.restitution_scatter=0.03", "--set", "block.restitution_seed=5"];
+    let outs = ["1", "2"].map(|threads| {
+        let out = folder.path().join(threads);
+        let (scene, out_text) = (scene("near_fault"), out.to_str().unwrap().to_owned());
+        let rest = ["--monte-carlo", "4", "--threads", threads, "--out", &out_text];
+        let output = sprag(&[&["simulate", &scene][..], &scattered, &rest].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("4 specimens"));
+        out
+    });
+    for name in ["summary.json", "monte_carlo.csv"] {
+        let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
+        assert!(!one.is_empty() && one == two, "{name}");
+    }
+    let table = fs::read_to_string(outs[0].join("monte_carlo.csv")).unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let devices = summary["runs"].as_array().unwrap();
+    assert_eq!(summary["monte_carlo"].as_array().unwrap().len(), devices.len());
+    assert_eq!(table.lines().count(), 1 + 4 * devices.len(), "{table}");
+    // The first specimen is the scene itself, and no two are alike.
+    for device in devices {
+        let name = device["device"].as_str().unwrap();
+        let rows: Vec<Vec<&str>> =
+            table.lines().map(|row| row.split(',').collect()).filter(|row: &Vec<&str>| row[0] == name).collect();
+        assert_eq!(rows.iter().map(|row| row[1]).collect::<Vec<_>>(), ["5", "6", "7", "8"]);
+        assert_eq!(rows[0][2], device["outcome"].as_str().unwrap());
+        assert_eq!(rows[0][3].parse().ok(), device["peak_rotation"].as_f64());
+        assert!(rows.iter().any(|row| row[3] != rows[0][3] || row[4] != rows[0][4]), "{name}: {rows:?}");
+    }
+    let output = sprag(&["simulate", &scene("near_fault"), "--monte-carlo", "4", "--out", folder.path().to_str().unwrap()]);
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && error.contains("block.restitution_scatter"), "{error}");
+    assert_eq!(error.trim().lines().count(), 1, "{error}");
+}

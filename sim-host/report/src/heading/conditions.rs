@@ -83,6 +83,10 @@ fn block(scene: &Scene) -> Phrase {
         RestitutionValue::Number(eta) => format!("η = {}", number(*eta)),
         RestitutionValue::Word(word) => format!("{} restitution", literal(word)),
     });
+    let scatter = block.scatter();
+    if scatter.is_on() {
+        values.push(format!("scatter of η = {}", number(scatter.deviation)));
+    }
     let start = [(block.initial_rotation_ratio, "θ(0)", "α"), (block.initial_velocity_ratio, "θ'(0)", "*p*α")];
     for (value, symbol, unit) in start.into_iter().filter(|start| start.0 != 0.0) {
         values.push(format!("{symbol} = {} {unit}", number(value)));

@@ -22,13 +22,15 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 66] = [
+const QUANTITIES: [Quantity; 69] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
     quantity("block.inertia_ratio", "inertia ratio", "λ", ""),
     quantity("block.mass_kg", "mass", "*m*", "kg"),
     quantity("block.restitution", "coefficient of restitution", "η", ""),
+    quantity("block.restitution_scatter", "standard deviation of η", "", ""),
+    quantity("block.restitution_seed", "seed of the impacts", "", ""),
     quantity("block.initial_rotation_ratio", "initial rotation", "θ(0)/α", ""),
     quantity("block.initial_velocity_ratio", "initial velocity", "θ'(0)/(*p*α)", ""),
     quantity("device.N.mass_ratio", "mass ratio", "σ", ""),
@@ -55,6 +57,7 @@ const QUANTITIES: [Quantity; 66] = [
     quantity("device.N.actuation.engagement_delay_s", "engagement delay", "", "s"),
     quantity("device.N.actuation.release_delay_s", "release delay", "", "s"),
     quantity("device.N.actuation.rise_time_s", "rise time", "", "s"),
+    quantity("device.N.actuation.time_constant_s", "time constant of the capacity", "", "s"),
     quantity("device.N.actuation.dwell_s", "dwell", "", "s"),
     quantity("device.N.actuation.miss_probability", "probability of a missed engagement", "", ""),
     quantity("device.N.actuation.miss_seed", "seed of missed engagements", "", ""),

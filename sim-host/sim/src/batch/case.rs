@@ -3,6 +3,7 @@
 use sprag_shared::ground::Harmonics;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -96,6 +97,7 @@ impl Case {
             },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.restitution),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: self.rest_speed,
         })
     }

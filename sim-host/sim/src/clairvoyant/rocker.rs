@@ -72,8 +72,12 @@ impl Place {
 }
 
 impl Rocker {
-    /// Of a `machine` of this `geometry`; none for a device that is neither an ideal clutched pair nor a rigid one.
+    /// Of a `machine` of this `geometry`; none for a device that is neither an ideal clutched pair nor a rigid one, and for impacts that
+    /// differ, whose numbers a search over states does not know.
     pub fn of(machine: &HybridSystem<f64>, geometry: Geometry) -> Option<Rocker> {
+        if machine.scatter.is_on() {
+            return None;
+        }
         let parameters = &machine.transmission.parameters;
         let wheels = match machine.transmission.kind {
             TransmissionKind::Ideal => Wheels::Ideal,

@@ -2,6 +2,7 @@ use std::f64::consts::PI;
 
 use sprag_shared::ground::{AnySegment, GroundSegment, Harmonics};
 use sprag_shared::math;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -28,6 +29,7 @@ fn rocker(geometry: Geometry, engagement: Engagement) -> Rocker {
         },
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     };
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0 };

@@ -216,7 +216,11 @@ impl<'a> LoopTask<'a> {
 
     /// Block and device.
     pub(crate) fn machine(&self) -> Result<HybridSystem<f64>, ParameterError> {
-        self.drivetrain().resolve(&self.scene.structure(self.index), self.ground.vertical.is_some())
+        let mut structure = self.scene.structure(self.index);
+        // Another specimen of the sensors meets other impacts.
+        let specimen = self.seed.wrapping_sub(self.controller.sensors.seed());
+        structure.restitution_scatter.seed = structure.restitution_scatter.seed.wrapping_add(specimen);
+        self.drivetrain().resolve(&structure, self.ground.vertical.is_some())
     }
 
     /// Clock of the loop.

@@ -27,6 +27,20 @@ pub const VERTICAL: Effect = Effect {
     is_on: |scene, _| !scene.file.vertical.is_empty(),
 };
 
+/// Impacts that differ.
+pub const SCATTER: Effect = Effect {
+    name: "scatter",
+    summary: "each impact draws its own restitution: no two of one block are alike",
+    equation: &[
+        "η_k = η + s z_k,  z_k normal with mean 0 and variance 1, drawn again until 0 < η_k ≤ 1: no impact adds energy",
+        "z_k = √(−2 ln u) cos 2πv, u and v from the seed and the impact's number k alone (SplitMix64)",
+        "near 1 the mean moves down: by s φ(a)/Φ(a) with a = (1 − η)/s",
+    ],
+    source: "normal errors of many small causes, truncated; that free-rocking tests scatter so: Bachmann et al. 2018",
+    keys: &["block.restitution_scatter", "block.restitution_seed"],
+    is_on: |scene, _| scene.file.block.scatter().is_on(),
+};
+
 /// Where η comes from.
 pub const IMPACT: Effect = Effect {
     name: "impact",

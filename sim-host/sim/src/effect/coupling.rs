@@ -51,7 +51,7 @@ pub const ACTUATION: Effect = Effect {
     equation: &[
         "inertial delay:  a command takes effect after its delay if it has lasted that long; a shorter one is lost",
         "transport delay: every command takes effect after its delay, in order; up to 8 under way, a ninth takes back the newest",
-        "F_c(t) = F_c min(1, t_e/rise) after t_e of engagement",
+        "F_c(t) = F_c min(1, t_e/rise) or F_c (1 − e^(−t_e/τ)) after t_e of engagement",
     ],
     source: "inertial: the current of a coil must build up before the armature moves; misses drawn from the seed",
     keys: &[
@@ -59,6 +59,7 @@ pub const ACTUATION: Effect = Effect {
         "device.N.actuation.release_delay_s",
         "device.N.actuation.delay",
         "device.N.actuation.rise_time_s",
+        "device.N.actuation.time_constant_s",
         "device.N.actuation.dwell_s",
         "device.N.actuation.miss_probability",
         "device.N.actuation.miss_seed",

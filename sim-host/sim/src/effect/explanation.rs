@@ -79,6 +79,8 @@ pub(super) struct Subject<'a> {
     pub scene: &'a Scene,
     /// The device.
     pub device: &'a SceneDevice,
+    /// Its number.
+    pub index: usize,
     /// The block with what rides on it.
     pub loaded: Structure,
 }
@@ -106,7 +108,7 @@ impl Explanation {
         let structure = scene.structure(index);
         // A scene has been checked, and so loads.
         let loaded = structure.loaded().unwrap_or(structure);
-        let subject = Subject { scene, device: &scene.devices[index], loaded };
+        let subject = Subject { scene, device: &scene.devices[index], index, loaded };
         let mut sections = vec![Section { title: "equation of motion", lines: motion(&subject) }];
         if subject.has_inerter() {
             sections.push(Section { title: "flywheels", lines: rules::flywheels(&subject) });
@@ -130,11 +132,12 @@ impl Explanation {
 /// Which engine, and how it integrates.
 fn engine(subject: &Subject<'_>) -> String {
     let accuracy = &subject.scene.file.accuracy;
-    let ideal = subject.device.is_ideal() && !subject.has_vertical();
-    let what = if ideal {
+    let what = if subject.scene.is_ideal(subject.index) {
         "ideal: the device's state follows from the block's"
-    } else if subject.device.is_ideal() {
+    } else if subject.device.is_ideal() && subject.has_vertical() {
         "device with memory, for the vertical ground motion"
+    } else if subject.device.is_ideal() {
+        "device with memory, for the scatter of impacts"
     } else {
         "device with memory: states and events of its own"
     };

@@ -35,10 +35,11 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 14] = [
+pub const EFFECTS: [&Effect; 15] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
+    &block::SCATTER,
     &device::MOUNT,
     &device::SUPPORT,
     &device::KINEMATICS,

@@ -106,7 +106,7 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
     };
     let mut lines = vec![format!("commanded while acceleration and velocity of the terminals have one sign (Eq. 10); {turns}")];
     lines.push(start.to_owned());
-    let Actuation { engagement_delay, release_delay, delay, rise_time, dwell, miss_probability, miss_seed } =
+    let Actuation { engagement_delay, release_delay, delay, rise_time, time_constant, dwell, miss_probability, miss_seed } =
         drivetrain.actuation;
     if drivetrain.actuation != Actuation::default() {
         let mut parts = Vec::new();
@@ -114,6 +114,7 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
             (engagement_delay, "engages {} s after the command"),
             (release_delay, "releases {} s after the command"),
             (rise_time, "capacity rises over {} s"),
+            (time_constant, "capacity rises with a time constant of {} s"),
             (dwell, "stays as it is for {} s after moving"),
             (miss_probability, "misses an engagement with probability {}"),
         ] {
@@ -137,6 +138,13 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
     let drivetrain = &subject.device.drivetrain;
     let mut lines = vec![uplift(subject)];
     lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));
+    let scatter = subject.loaded.restitution_scatter;
+    if scatter.is_on() {
+        let (deviation, seed) = (number(scatter.deviation), scatter.seed);
+        lines.push(format!(
+            "each impact draws its own η: normal about that with standard deviation {deviation}, 0 < η ≤ 1; seed {seed}"
+        ));
+    }
     if subject.device.device.kind == DeviceKind::ClutchedPair {
         let at_impact = match drivetrain.engagement {
             Engagement::Ideal => None,

@@ -57,6 +57,25 @@ fn an_empty_table_is_the_ideal_device() {
 }
 
 #[test]
+fn impacts_that_differ_go_beyond_the_ideal_device() {
+    let scene = |items: &[&str]| parsed(items).unwrap_or_else(|error| panic!("{error}"));
+    for items in [&[][..], &["block.restitution_seed=9"], &["block.restitution_scatter=0", "block.restitution_seed=9"]] {
+        let scene = scene(items);
+        assert!(scene.is_ideal(2) && scene.plain_block(2).is_some() && scene.first_beyond_ideal().is_none(), "{items:?}");
+        assert_eq!(scene.structure(2).restitution_scatter, RestitutionScatter::NONE);
+    }
+    let scattered = scene(&["block.restitution_scatter=0.02", "block.restitution_seed=9"]);
+    assert!(!scattered.is_ideal(2) && scattered.plain_block(2).is_none());
+    assert_eq!(scattered.structure(2).restitution_scatter, RestitutionScatter { deviation: 0.02, seed: 9 });
+    for of_ideal in [
+        "accuracy={ method = 'semi-implicit-euler', step_ratio = 1e-3 }",
+        "accuracy={ method = 'runge-kutta-4', step_ratio = 1e-3, events = 'step-end' }",
+    ] {
+        refused(&["block.restitution_scatter=0.02", of_ideal], &["ideal devices only", "block.restitution_scatter goes beyond"]);
+    }
+}
+
+#[test]
 fn engagements_and_losses_are_the_drivetrains() {
     assert_eq!(device(2, "engagement=rigid").drivetrain.engagement, Engagement::Rigid);
     assert_eq!(device(2, "engagement=overrunning").drivetrain.engagement, Engagement::Overrunning);
@@ -110,6 +129,7 @@ fn rack_and_actuation_are_the_drivetrains() {
         release_delay: 0.02,
         delay: Delay::Transport,
         rise_time: 0.03,
+        time_constant: 0.0,
         dwell: 0.04,
         miss_probability: 0.5,
         miss_seed: 7,
@@ -182,7 +202,11 @@ fn contradictory_effects_are_refused_with_the_reason() {
     for engagement in ["engagement=rigid", "clutch.stiffness_ratio=10"] {
         let items = [&format!("device.2.{engagement}"), "device.2.actuation.rise_time_s=0.1"];
         refused(&items, &["device.2.actuation.rise_time_s", "only a capacity can rise"]);
+        let items = [&format!("device.2.{engagement}"), "device.2.actuation.time_constant_s=0.1"];
+        refused(&items, &["device.2.actuation.time_constant_s", "only a capacity can rise"]);
     }
+    let twice = "device.2.actuation={ rise_time_s = 0.1, time_constant_s = 0.1 }";
+    refused(&[capacity, twice], &["device.2.actuation.time_constant_s", "linearly or exponentially"]);
     refused(&["device.1.weight={ flywheels_on = \"block\" }"], &["device.1.weight.flywheels_ratio is missing"]);
     let both = "device.1.weight={ flywheels_ratio = 0.1, flywheels_on = \"block\", rack_ratio = 0.1, rack_on = \"block\" }";
     refused(&[both], &["device.1.weight.rack_on", "nothing turns the flywheels"]);

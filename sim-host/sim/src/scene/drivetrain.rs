@@ -156,9 +156,12 @@ pub struct ActuationTable {
     pub release_delay_s: f64,
     /// Kind of these two delays.
     pub delay: DelayName,
-    /// Time from first contact to full capacity; needs a capacity.
+    /// Time from first contact to full capacity, linearly; or give `time_constant_s`. Needs a capacity.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub rise_time_s: f64,
+    /// Time constant τ of a capacity that rises as 1 − e^(−t/τ), that of a coil; or give `rise_time_s`. Needs a capacity.
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub time_constant_s: f64,
     /// Time for which a clutch that has just moved stays so.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub dwell_s: f64,
@@ -321,9 +324,15 @@ impl DeviceTable {
             Engagement::Elastic { capacity_ratio, .. } => capacity_ratio != f64::INFINITY,
             _ => false,
         };
-        if table.rise_time_s != 0.0 && !has_capacity {
-            let reason = "only a capacity can rise: give clutch.capacity_ratio or clutch.capacity_n";
-            return Err(key("actuation.rise_time_s").conflict(reason));
+        for (name, time) in [("actuation.rise_time_s", table.rise_time_s), ("actuation.time_constant_s", table.time_constant_s)] {
+            if time != 0.0 && !has_capacity {
+                let reason = "only a capacity can rise: give clutch.capacity_ratio or clutch.capacity_n";
+                return Err(key(name).conflict(reason));
+            }
+        }
+        if table.rise_time_s != 0.0 && table.time_constant_s != 0.0 {
+            let reason = "a capacity rises linearly or exponentially: give only one of rise_time_s and time_constant_s";
+            return Err(key("actuation.time_constant_s").conflict(reason));
         }
         Ok(Actuation {
             engagement_delay: table.engagement_delay_s,
@@ -335,6 +344,7 @@ impl DeviceTable {
                 table.delay.into()
             },
             rise_time: table.rise_time_s,
+            time_constant: table.time_constant_s,
             dwell: table.dwell_s,
             miss_probability: table.miss_probability,
             // A seed of nothing is no effect.

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::drivetrain::Engagement;
 use sprag_shared::structure::error::ParameterError;
-use sprag_shared::structure::{Restitution, Structure};
+use sprag_shared::structure::{Restitution, RestitutionScatter, Structure};
 
 pub use device::SceneDevice;
 pub use error::SceneError;
@@ -108,6 +108,8 @@ impl Scene {
         let key = |key: &str| error::KeyPath { origin: origin.to_owned(), key: key.to_owned() };
         let block = file.block.block(&key)?;
         let restitution = file.block.restitution(&key)?;
+        let scatter = file.block.scatter();
+        scatter.check().map_err(|error| key("block.restitution_scatter").range(error.value, error.range))?;
         if file.device.is_empty() {
             return Err(key("device").missing("at least one [[device]] table"));
         }
@@ -120,6 +122,7 @@ impl Scene {
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
             let structure = structure(&file, block, restitution, &device);
+            let structure = Structure { restitution_scatter: RestitutionScatter::NONE, ..structure };
             structure.resolve::<f64>().map_err(|error| refusal(&error, origin, index))?;
             devices.push(device);
         }
@@ -195,6 +198,12 @@ impl Scene {
         first_beyond_ideal(&self.file, &self.devices)
     }
 
+    /// Whether the loop of ideal devices is enough for device number `index` (below the number of devices), on ground that moves as the
+    /// scene says.
+    pub fn is_ideal(&self, index: usize) -> bool {
+        self.devices[index].is_ideal() && self.file.vertical.is_empty() && !self.file.block.scatter().is_on()
+    }
+
     /// g tan α, or gα for the slender model, in g.
     pub fn uplift_threshold(&self) -> f64 {
         self.geometry().uplift_threshold(self.block.slenderness())
@@ -234,6 +243,7 @@ fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &
         device: device.device,
         added_mass: device.added_mass,
         restitution,
+        restitution_scatter: file.block.scatter(),
         rest_speed: file.run.rest_speed_ratio,
     }
 }
@@ -256,7 +266,8 @@ fn first_beyond_ideal(file: &SceneFile, devices: &[SceneDevice]) -> Option<Strin
         table.beyond_ideal(&device.drivetrain).map(|name| format!("device.{index}.{name}"))
     };
     let vertical = || (!file.vertical.is_empty()).then(|| "vertical".to_owned());
-    tables.into_iter().find_map(of_device).or_else(vertical)
+    let scatter = || file.block.scatter().is_on().then(|| "block.restitution_scatter".to_owned());
+    tables.into_iter().find_map(of_device).or_else(vertical).or_else(scatter)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::map::OverturnedAt;
 impl Scene {
     /// The block with device number `device`, if lanes of ideal devices know it; whatever the ground does.
     pub fn plain_block(&self, device: usize) -> Option<PlainBlock> {
-        let plain = self.is_followed_from_rest() && self.file.vertical.is_empty() && self.devices.get(device)?.is_ideal();
+        let plain = device < self.devices.len() && self.is_followed_from_rest() && self.is_ideal(device);
         let block = PlainBlock::of_structure(&self.structure(device)).filter(|_| plain)?;
         Some(PlainBlock { overturned_at_slenderness: self.overturned_at_slenderness(), ..block })
     }

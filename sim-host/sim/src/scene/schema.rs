@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::{REST_SPEED, Restitution};
+use sprag_shared::structure::{REST_SPEED, Restitution, RestitutionScatter};
 
 pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
 use super::checks::ChecksTable;
@@ -95,6 +95,12 @@ pub struct BlockTable {
     /// Ratio η of the angular velocities after and before an impact, or where it comes from.
     #[serde(default = "paper_restitution")]
     pub restitution: RestitutionValue,
+    /// Standard deviation of η from impact to impact, each drawn from a normal distribution about `restitution`, truncated to 0 < η ≤ 1.
+    #[schemars(range(min = 0.0, max = 0.5), extend("default" = 0.0))]
+    pub restitution_scatter: Option<f64>,
+    /// Seed of what impacts draw; of several specimens that of the first.
+    #[schemars(extend("default" = 0))]
+    pub restitution_seed: Option<u64>,
     /// Rotation at the start, θ/α.
     #[serde(default)]
     #[schemars(range(min = -10.0, max = 10.0))]
@@ -175,6 +181,16 @@ impl BlockTable {
             RestitutionValue::Word(word) if word == "momentum-balance" => Ok(Restitution::MomentumBalance),
             RestitutionValue::Word(word) => Err(key("block.restitution")
                 .outside(format!("{word:?}"), "a number from 0 to 1, \"geometric\" or \"momentum-balance\"")),
+        }
+    }
+}
+
+impl BlockTable {
+    /// How impacts differ. A seed of nothing is no effect.
+    pub fn scatter(&self) -> RestitutionScatter {
+        match self.restitution_scatter.unwrap_or(0.0) {
+            0.0 => RestitutionScatter::NONE,
+            deviation => RestitutionScatter { deviation, seed: self.restitution_seed.unwrap_or(0) },
         }
     }
 }

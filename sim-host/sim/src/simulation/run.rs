@@ -148,7 +148,7 @@ pub(crate) struct Task<'a> {
 impl<'a> Task<'a> {
     /// Nothing calls for a memory: the loop for ideal devices is enough.
     fn is_ideal(&self) -> bool {
-        self.device().is_ideal() && self.ground.vertical.is_none()
+        self.scene.is_ideal(self.index) && self.ground.vertical.is_none()
     }
 
     /// Run of the device.

@@ -190,7 +190,8 @@ fn changed(
     let scene = Scene::load(path, &overrides).map_err(|error| error.to_string())?;
     let same = scene.devices[index] == base.devices[index]
         && scene.geometry() == base.geometry()
-        && scene.file.block.restitution == base.file.block.restitution;
+        && scene.file.block.restitution == base.file.block.restitution
+        && scene.file.block.scatter() == base.file.block.scatter();
     if same && !variant.vertical {
         return Err("the scene has it already".to_owned());
     }

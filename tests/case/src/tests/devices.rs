@@ -6,7 +6,7 @@ use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
-pub fn drivetrains() -> [Drivetrain; 7] {
+pub fn drivetrains() -> [Drivetrain; 8] {
     let flywheel = FlywheelLosses { viscous_rate: 0.0625, dry_deceleration: 0.25, brake_deceleration: 5.0 };
     let coasting = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.03125, viscous: 0.0625, dry_ratio: 0.00390625 };
@@ -17,6 +17,7 @@ pub fn drivetrains() -> [Drivetrain; 7] {
         release_delay: 0.0078125,
         delay: Delay::Transport,
         rise_time: 0.03125,
+        time_constant: 0.0,
         dwell: 0.0625,
         miss_probability: 0.25,
         miss_seed: 0x0123_4567_89ab_cdef,
@@ -29,6 +30,7 @@ pub fn drivetrains() -> [Drivetrain; 7] {
         Drivetrain { actuation, ..friction },
         of(elastic(0.0, f64::INFINITY), flywheel),
         of(elastic(0.001953125, 0.03125), FlywheelLosses { brake_deceleration: f64::INFINITY, ..flywheel }),
+        Drivetrain { actuation: Actuation { time_constant: 0.0625, ..Actuation::default() }, ..friction },
         Drivetrain { support: Support { amplification: 1.25 }, ..Drivetrain::default() },
     ]
 }
@@ -68,6 +70,7 @@ fn bad_words_of_a_drivetrain_are_named() {
         (28, "dwell"),
         (29, "miss_probability"),
         (33, "support_amplification"),
+        (34, "time_constant"),
     ] {
         for number in [if index == 33 { -11.0 } else { -1.0 }, f32::NAN, 2e12] {
             assert_eq!(with(index, number), parameter);
@@ -109,7 +112,7 @@ fn a_method_runs_what_it_is_for() {
         Err(CaseError::Method { method, .. }) => method == case.method,
         _ => false,
     };
-    let [_, rigid, .., elastic, _] = drivetrains();
+    let [_, rigid, .., elastic, _, _] = drivetrains();
     for method in [FixedMethod::SemiImplicitEuler, FixedMethod::Taylor] {
         let vertical = Ground::both_ways(&[(GroundPiece { shape: Shape::Quiet, duration: 1.0 }, Shape::Quiet)]).unwrap();
         assert!(refused(Case { method, drivetrain: rigid, ..base }));

@@ -6,13 +6,13 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::Limits;
 use sprag_shared::observers::digest::Digest;
-use sprag_shared::structure::REST_SPEED;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack, Support};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
+use sprag_shared::structure::{REST_SPEED, RestitutionScatter};
 
 mod devices;
 
@@ -27,6 +27,7 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.875),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: f64::from(REST_SPEED as f32),
         },
         drivetrain: Drivetrain::default(),
@@ -83,9 +84,13 @@ fn a_case_comes_back_as_it_went() {
     ] {
         let device = Device { mount, kinematics: KinematicsKind::Consistent, ..base.structure.device };
         let added_mass = AddedMass { mass_ratio: 0.0625, height: 5.5 };
-        let structure = Structure { device, added_mass, geometry: Geometry::Full, restitution, ..base.structure };
+        let restitution_scatter = RestitutionScatter { deviation: 0.0, seed: 3 << 40 | 5 };
+        let structure =
+            Structure { device, added_mass, geometry: Geometry::Full, restitution, restitution_scatter, ..base.structure };
         cases.push(Case { structure, method: FixedMethod::SemiImplicitEuler, ..base });
     }
+    let scatter = RestitutionScatter { deviation: 0.0625, seed: u64::MAX - 7 };
+    cases.push(Case { structure: Structure { restitution_scatter: scatter, ..base.structure }, ..base });
     for case in cases {
         let (words, count) = words(&case);
         assert_eq!(Case::decode(&words[..count]), Ok(case));
@@ -117,18 +122,18 @@ fn bad_words_are_named() {
         (11, "kinematics"),
         (14, "engagement"),
         (32, "delay"),
-        (34, "restitution"),
-        (37, "start"),
-        (40, "method"),
-        (43, "ground"),
-        (45, "vertical motion"),
-        (46, "shape"),
+        (35, "restitution"),
+        (41, "start"),
+        (44, "method"),
+        (47, "ground"),
+        (49, "vertical motion"),
+        (50, "shape"),
     ] {
         for word in [9, u32::MAX] {
             assert_eq!(with(index, word), CaseError::Kind { of, word });
         }
     }
-    assert_eq!(with(44, 9), CaseError::TooManyPieces(9));
+    assert_eq!(with(48, 9), CaseError::TooManyPieces(9));
     let parameter = |index: usize, number: f32| match with(index, number.to_bits()) {
         CaseError::Parameter(error) => error.parameter,
         other => panic!("{other}"),
@@ -139,13 +144,14 @@ fn bad_words_are_named() {
     assert_eq!(parameter(7, -1.0), "mass_ratio");
     assert_eq!(parameter(12, 10.5), "carried mass_ratio");
     assert_eq!(parameter(13, -1.0), "carried height");
-    assert_eq!(parameter(35, 1.5), "restitution");
-    assert_eq!(parameter(36, 0.0), "rest_speed");
-    assert_eq!(parameter(41, 0.0), "step");
-    assert_eq!(parameter(42, f32::INFINITY), "free_time");
-    assert_eq!(parameter(47, -1.0), "duration");
-    assert_eq!(parameter(49, f32::NAN), "number of a shape");
-    assert_eq!(with(41, 1e-7_f32.to_bits()), CaseError::TooManySteps);
+    assert_eq!(parameter(36, 1.5), "restitution");
+    assert_eq!(parameter(37, 0.0), "rest_speed");
+    assert_eq!(parameter(38, 0.75), "restitution_scatter");
+    assert_eq!(parameter(45, 0.0), "step");
+    assert_eq!(parameter(46, f32::INFINITY), "free_time");
+    assert_eq!(parameter(51, -1.0), "duration");
+    assert_eq!(parameter(53, f32::NAN), "number of a shape");
+    assert_eq!(with(45, 1e-7_f32.to_bits()), CaseError::TooManySteps);
 }
 
 /// Half of the mass at the base doubles the stability angle: a block that moves on beyond its own comes back.

@@ -33,7 +33,7 @@ use sprag_shared::{
     },
     observers::peaks::Peaks,
     structure::{
-        REST_SPEED, Restitution, Structure,
+        REST_SPEED, Restitution, RestitutionScatter, Structure,
         added_mass::AddedMass,
         block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
         device::{Device, DeviceKind},
@@ -95,6 +95,7 @@ fn run(
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(RESTITUTION.into()),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         },
         drivetrain: Drivetrain::default(),

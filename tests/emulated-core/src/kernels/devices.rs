@@ -24,6 +24,7 @@ use sprag_shared::{
         state::{Limits, Stopped},
     },
     structure::{
+        RestitutionScatter,
         block::{Block, RECTANGLE_INERTIA_RATIO},
         drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support},
     },
@@ -66,6 +67,7 @@ const PROMPT: Actuation = Actuation {
     release_delay: 0.0,
     delay: Delay::Inertial,
     rise_time: 0.0,
+    time_constant: 0.0,
     dwell: 0.0,
     miss_probability: 0.0,
     miss_seed: 0,
@@ -96,6 +98,7 @@ fn machine(body: FullBody<f32>, kind: TransmissionKind, block: &Block, drivetrai
         body: AnyBody::Full(body),
         transmission: AnyTransmission { kind, parameters: black_box(parameters) },
         restitution: [super::RESTITUTION; 3],
+        scatter: RestitutionScatter::NONE,
         slenderness: super::SLENDERNESS,
         speed: 0.33,
         rest_speed: 3e-7,

@@ -165,7 +165,13 @@ fn actuation(text: &mut String, random: &mut Random, capacity: bool) {
         keys.push(format!("miss_seed = {}", random.next_u64() % 1000));
     }
     if capacity && random.chance(0.5) {
-        keys.push(format!("rise_time_s = {}", random.logarithmic(0.005, 0.12)));
+        let time = random.logarithmic(0.005, 0.12);
+        // Half of them by what has been drawn, so that all others stay what they were.
+        keys.push(if time.to_bits().is_multiple_of(2) {
+            format!("rise_time_s = {time}")
+        } else {
+            format!("time_constant_s = {time}")
+        });
     }
     if keys.is_empty() {
         keys.push("engagement_delay_s = 0.01".to_owned());

@@ -54,6 +54,13 @@ pub fn scene(seed: u64, number: u64) -> Generated {
         1 => text.push_str("restitution = \"momentum-balance\"\n"),
         _ => drop(writeln!(text, "restitution = {}", random.between(0.6, 0.95))),
     }
+    // Draws of its own, so that all others stay what they were.
+    let mut own = random;
+    own = Random::new(own.next_u64());
+    if own.chance(0.15) {
+        let (scatter, seed) = (own.logarithmic(0.005, 0.3), own.next_u64() >> 1);
+        let _ = writeln!(text, "restitution_scatter = {scatter}\nrestitution_seed = {seed}");
+    }
     if random.chance(0.15) {
         let _ = writeln!(text, "initial_rotation_ratio = {}", random.between(-0.8, 0.8));
     } else if random.chance(0.1) {

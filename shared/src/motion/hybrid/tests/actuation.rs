@@ -2,13 +2,16 @@
 
 use std::vec::Vec;
 
-use super::{HybridSystem, Seen, Watcher, pair, tight};
+use super::{HybridSystem, Seen, Watcher, constant, pair, tight};
+use crate::drivetrain::clutch_state::Coupling;
 use crate::ground::Harmonics;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::BlockState;
-use crate::structure::block::Geometry;
+use crate::motion::state::{BlockState, Limits};
+use crate::structure::block::{GRAVITY, Geometry};
 use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
 
 fn with(actuation: Actuation) -> Drivetrain {
@@ -154,6 +157,39 @@ fn a_capacity_that_rises_slowly_carries_less() {
     let (at_once, short, never) = (peak(0.0), peak(1e-6), alone.ideal().peak);
     assert!((short / at_once - 1.0).abs() < 1e-4, "{short} and {at_once}");
     assert!((peak(9.0) / never - 1.0).abs() < 0.05, "{} and {never}", peak(9.0));
+}
+
+/// While they slip, plates pass on the impulse of their capacity, F_c (t − τ(1 − e^(−t/τ))): that is what the flywheel has taken on.
+#[test]
+fn a_coil_drives_its_flywheel_by_an_exponential() {
+    let (capacity_ratio, tau) = (0.02, 0.06);
+    let drivetrain = Drivetrain {
+        engagement: Engagement::Friction { capacity_ratio },
+        actuation: Actuation { time_constant: tau, ..Actuation::default() },
+        ..Drivetrain::default()
+    };
+    let structure = pair(Geometry::Full, 1.0, 1.0).structure;
+    let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+    let block = &structure.block;
+    // Thrown outward, under a push that keeps it going and its command as it is.
+    let push = [-1.5, 0.0];
+    let ground = constant(push[0]);
+    let mut state = machine.released_at(0.02, 0.8, push);
+    let shaking = Shaking { horizontal: &ground, vertical: None };
+    let limits = Limits { overturned: 1.5, events: 10_000 };
+    let mut passed = 0.0;
+    for time in [0.03, 0.06, 0.12, 0.2] {
+        machine.advance(&tight(), &mut state, shaking, time - passed, &limits, &mut ()).unwrap();
+        passed = time;
+        assert!(matches!(state.device.wheels[0].coupling, Coupling::Slipping(Sign::Positive)), "slips at {time}");
+        let impulse = time - tau * (1.0 - Real::exp(-time / tau));
+        let spin = capacity_ratio * GRAVITY * impulse / (structure.device.mass_ratio * block.size());
+        let found = state.device.wheels[0].spin;
+        // The lines are within 0.05 % of the capacity at every instant.
+        assert!((found - spin).abs() < 5e-4 * spin * time / impulse, "{found} and {spin} at {time}");
+        let linear = capacity_ratio * GRAVITY * time / (structure.device.mass_ratio * block.size());
+        assert!(found < 0.9 * linear);
+    }
 }
 
 /// A spring without a damper passes on what its twist says: the force does not jump where plates of rising capacity begin or end to slip.

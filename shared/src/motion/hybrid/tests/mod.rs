@@ -6,6 +6,7 @@ mod energy;
 mod ground;
 mod limits;
 mod methods;
+mod restitution_scatter;
 mod standing;
 mod support;
 
@@ -22,10 +23,11 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
+use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use crate::structure::mount::Mount;
 use crate::structure::restitution::Restitution;
 use crate::structure::{REST_SPEED, Structure};
@@ -68,6 +70,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
         geometry,
         device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         added_mass: AddedMass::NONE,
         rest_speed: REST_SPEED,
     }
@@ -215,7 +218,7 @@ impl Shake {
 }
 
 /// Every kind of drivetrain, with losses where they belong.
-pub fn drivetrains() -> [(&'static str, Drivetrain); 8] {
+pub fn drivetrains() -> [(&'static str, Drivetrain); 9] {
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
     let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
@@ -237,6 +240,13 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 8] {
         ),
         ("elastic with play", of(elastic(2e-3, f64::INFINITY), flywheel, rack)),
         ("elastic with play and plates", of(elastic(2e-3, 0.03), flywheel, rack)),
+        (
+            "friction clutch of a coil",
+            Drivetrain {
+                actuation: Actuation { time_constant: 0.05, ..Actuation::default() },
+                ..of(Engagement::Friction { capacity_ratio: 0.03 }, flywheel, rack)
+            },
+        ),
         (
             "ideal on a moving support",
             Drivetrain { support: Support { amplification: 1.3 }, rack: guided, ..Drivetrain::default() },

@@ -5,6 +5,7 @@ use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;
 use crate::motion::ideal::IdealSystem;
 use crate::motion::state::Limits;
+use crate::structure::RestitutionScatter;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
@@ -87,6 +88,7 @@ pub(crate) fn structure(
         device: Device { kind, mass_ratio: 0.5, mount, kinematics },
         added_mass: crate::structure::added_mass::AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
+        restitution_scatter: RestitutionScatter::NONE,
         rest_speed: REST_SPEED,
     }
 }

@@ -20,6 +20,7 @@ use sprag_shared::control::monitor::{EncoderLimits, MonitorParameters, SensorLim
 use sprag_shared::control::sensing::calibration::Plausible;
 use sprag_shared::control::sensing::instruments::Instruments;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
@@ -160,6 +161,7 @@ impl Candidate {
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, kinematics, ..Device::NONE },
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
+            restitution_scatter: RestitutionScatter::NONE,
             rest_speed: REST_SPEED,
         };
         let period = f64::from(PERIOD);
