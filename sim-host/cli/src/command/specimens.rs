@@ -7,10 +7,10 @@ use rayon::prelude::*;
 use serde::Serialize;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
-use sprag_sim::closed_loop::report::Scatter;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::simulation::scatter::Scatter;
 use sprag_sim::simulation::simulate;
 use sprag_studies::statistics::quantile;
 

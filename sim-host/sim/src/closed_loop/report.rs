@@ -12,6 +12,7 @@ use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
+use crate::simulation::scatter::Scatter;
 use crate::simulation::{DeviceRun, ErrorReport};
 
 /// A fault as a summary has it.
@@ -23,21 +24,6 @@ pub struct FaultEntry {
     pub code: u16,
     /// In words.
     pub fault: String,
-}
-
-/// What the specimens of a Monte-Carlo run came to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Scatter {
-    /// Specimens.
-    pub specimens: usize,
-    /// Number of specimens that overturned.
-    pub overturned: usize,
-    /// 5th percentile of max |θ|/α of the others.
-    pub peak_rotation_05: Option<f64>,
-    /// Median.
-    pub peak_rotation_median: Option<f64>,
-    /// 95th percentile.
-    pub peak_rotation_95: Option<f64>,
 }
 
 /// One object in `runs` of `summary.json`.

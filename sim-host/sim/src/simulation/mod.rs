@@ -16,6 +16,7 @@ mod ideal;
 mod machine;
 pub mod recorder;
 pub mod run;
+pub mod scatter;
 pub mod step_end;
 pub mod watchers;
 
