@@ -113,6 +113,7 @@ fn effects_are_listed_and_shown() {
         "geometry",
         "vertical",
         "impact",
+        "scatter",
         "flywheel",
         "engagement",
         "clutch",
