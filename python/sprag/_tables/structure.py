@@ -33,8 +33,8 @@ class Block(Table):
         Ratio η of the angular velocities after and before an impact, or where it comes from; from 0 to 1;
         0.85 by default.
     restitution_scatter
-        Standard deviation of η from impact to impact, each drawn from a normal distribution about
-        restitution, truncated to 0 < η ≤ 1; from 0 to 0.5; 0.0 by default.
+        Standard deviation of η from impact to impact: normal about restitution, truncated to 0 < η ≤ 1; from
+        0 to 0.5; 0.0 by default.
     restitution_seed
         Seed of what impacts draw; of several specimens that of the first; from 0; 0 by default.
     initial_rotation_ratio

@@ -41,11 +41,11 @@ fn host() -> String {
 fn runs_decide_differently() {
     let host = host();
     let here = digests(&host);
-    assert_eq!(here.len(), 10);
+    assert_eq!(here.len(), 12);
     // A tick in parts is the same tick; all else differs.
     assert_eq!(here["parts"], here["model-aided"]);
     let different: std::collections::BTreeSet<&&str> = here.values().collect();
-    assert_eq!(different.len(), 9, "{here:?}");
+    assert_eq!(different.len(), 11, "{here:?}");
     let commands = |line: &str| line.split(['(', ' ']).nth(2).unwrap().parse::<u32>().unwrap();
     for (name, line) in &here {
         // Four of them are the self-test's, and two each of the safe state before and after it, which engages one.

@@ -95,7 +95,7 @@ pub struct BlockTable {
     /// Ratio η of the angular velocities after and before an impact, or where it comes from.
     #[serde(default = "paper_restitution")]
     pub restitution: RestitutionValue,
-    /// Standard deviation of η from impact to impact, each drawn from a normal distribution about `restitution`, truncated to 0 < η ≤ 1.
+    /// Standard deviation of η from impact to impact: normal about `restitution`, truncated to 0 < η ≤ 1.
     #[schemars(range(min = 0.0, max = 0.5), extend("default" = 0.0))]
     pub restitution_scatter: Option<f64>,
     /// Seed of what impacts draw; of several specimens that of the first.

@@ -120,7 +120,7 @@ pub const VARIANTS: [Variant; 25] = [
     ),
     variant(
         "actuation",
-        "plates of 0.1 × block weight by a coil of 0.1 s, instant brake",
+        "coil of 0.1 s, capacity 0.1 × block weight, instant brake",
         PAIR,
         &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE, "device.N.actuation={ time_constant_s = 0.1 }"],
     ),
@@ -197,8 +197,9 @@ mod tests {
                 assert!((effect.is_on)(&scene, index), "{}", variant.label());
                 let on = Effects::of_scene(&scene).on.into_iter().chain(Effects::of_device(&scene, index).on);
                 let others: Vec<_> = on.map(|setting| setting.effect.name).filter(|name| *name != variant.effect).collect();
-                // Flywheels with a speed of their own bring the consistent kinematics with them.
+                // Flywheels with a speed of their own bring the consistent kinematics with them, and a coil needs the plates that it presses.
                 let brought = ["flywheel", "kinematics"];
+                let brought = brought.into_iter().chain(variant.name.starts_with("coil").then_some("clutch")).collect::<Vec<_>>();
                 assert!(others.iter().all(|name| brought.contains(name)), "{}: {others:?}", variant.label());
             }
         }
