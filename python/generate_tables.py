@@ -128,7 +128,8 @@ def table(
         lines.append("")
     for key in order:
         kind = type_of(properties[key], tables, key)
-        lines.append(f"    {key}: {kind}" if key in required else f"    {key}: {kind} | None = None")
+        line = f"    {key}: {kind}" if key in required else f"    {key}: {kind} | None = None"
+        lines.append(line if len(line) <= 140 else line.replace("[", "[\n        ", 1).replace("]", "\n    ]", 1))
     return "\n".join(lines)
 
 
