@@ -129,7 +129,7 @@ def table(
     for key in order:
         kind = type_of(properties[key], tables, key)
         line = f"    {key}: {kind}" if key in required else f"    {key}: {kind} | None = None"
-        lines.append(line if len(line) <= 140 else line.replace("[", "[\n        ", 1).replace("]", "\n    ]", 1))
+        lines.append(line if len(line) <= 140 else f"    {key}: (\n        {kind}\n        | None\n    ) = None")
     return "\n".join(lines)
 
 

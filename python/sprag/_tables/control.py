@@ -304,9 +304,10 @@ class Controller(Table):
 
     rate_hz: float | None = None
     estimator: Literal["model-aided", "kalman", "complementary"] | None = None
-    law: Literal[
-        "passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"
-    ] | None = None
+    law: (
+        Literal["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"]
+        | None
+    ) = None
     sign_table: int | None = None
     latency_s: float | None = None
     hysteresis: float | None = None
