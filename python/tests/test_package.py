@@ -43,7 +43,7 @@ def test_the_wheel_has_the_command() -> None:
     [
         ("python", 2, "run.png"),
         ("start/researcher", 3, "out/figure10/history.svg"),
-        ("start/structural-engineer", 5, "out/cloud-cloud/fragility.svg"),
+        ("start/structural-engineer", 6, "out/cloud-cloud/fragility.svg"),
     ],
 )
 def test_examples_of_a_page_run(tmp_path: Path, page: str, number: int, picture: str) -> None:
