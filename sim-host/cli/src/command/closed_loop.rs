@@ -216,13 +216,9 @@ fn monte_carlo(
         TextTable::new(1, ["device", "seed", "outcome", "peak_rotation", "wrong_share", "switches", "chatter", "faults"]);
     for (report, &index) in reports.iter_mut().zip(pairs) {
         let runs = specimens(pool, desk, index, count.get(), interrupt, || progress.step())?;
-        let (mut peaks, mut overturned) = (Vec::new(), 0);
+        let mut peaks = Vec::new();
         for Specimen { seed, outcome, peak, ending } in runs {
-            if outcome.overturned() {
-                overturned += 1;
-            } else {
-                peaks.push(peak);
-            }
+            peaks.extend(Some(peak).filter(|_| !outcome.overturned()));
             let decisions = &ending.decisions;
             table.row(vec![
                 report.summary.device.clone(),
@@ -235,7 +231,7 @@ fn monte_carlo(
                 ending.faults.len().to_string(),
             ]);
         }
-        report.summary.monte_carlo = Some(scatter(count, &peaks, overturned));
+        report.summary.monte_carlo = Some(scatter(count, &peaks));
     }
     progress.finish();
     Ok(table)

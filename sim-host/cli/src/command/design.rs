@@ -128,8 +128,7 @@ impl Run for DesignArguments {
         let interrupt = context.interrupt;
         let designed = self.accuracy.run(context, |change| designed(self, change, &mut folder, interrupt))?;
         designed.read.errors.iter().for_each(|error| context.note(error));
-        let motions = designed.read.motions.iter();
-        let records: Vec<RecordSummary> = motions.flat_map(|motion| motion.records.iter().cloned()).collect();
+        let records = designed.read.records();
         warnings.extend(context.warned(warning_lines(&records)));
         let mut report = Report::new("design", &folder, &self.output)?;
         fill(&mut report, self, &designed, &records, &warnings)?;

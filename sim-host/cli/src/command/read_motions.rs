@@ -1,6 +1,7 @@
 //! The motions that devices of a scene are run under: the scene's own, and records in its place.
 
 use sprag_report::progress::Progress;
+use sprag_sim::record::RecordSummary;
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::{Scene, SceneError};
@@ -43,6 +44,11 @@ impl ReadMotions {
             anyhow::bail!("{}: no ground motion could be read; {first}", scene.origin);
         }
         Ok(read)
+    }
+
+    /// What the record files of the motions hold.
+    pub fn records(&self) -> Vec<RecordSummary> {
+        self.motions.iter().flat_map(|motion| motion.records.iter().cloned()).collect()
     }
 }
 

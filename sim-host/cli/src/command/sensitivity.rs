@@ -12,7 +12,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::Scene;
-use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
+use sprag_studies::sensitivity::motion::RecordFiles;
 use sprag_studies::sensitivity::report::{comparison_table, page, table};
 use sprag_studies::sensitivity::statistics::{Summary, summaries};
 use sprag_studies::sensitivity::study::{Findings, Flip, Study};
@@ -73,8 +73,8 @@ impl Run for SensitivityArguments {
         let mut warnings = context.warned(self.scene.load(None)?.warnings());
         let interrupt = context.interrupt;
         let studied = self.accuracy.run(context, |change| studied(self, change, &mut folder, interrupt))?;
-        studied.errors.iter().for_each(|error| context.note(error));
-        let records: Vec<RecordSummary> = studied.motions.iter().flat_map(|motion| motion.records.iter().cloned()).collect();
+        studied.read.errors.iter().for_each(|error| context.note(error));
+        let records = studied.read.records();
         warnings.extend(context.warned(warning_lines(&records)));
         let mut report = Report::new("sensitivity", &folder, &self.output)?;
         fill(&mut report, &studied, &records, &warnings)?;
@@ -87,9 +87,7 @@ struct Studied {
     scene: Scene,
     subject: Subject,
     study: Study,
-    motions: Vec<StudyMotion>,
-    /// Records that could not be read, in a line each.
-    errors: Vec<String>,
+    read: ReadMotions,
     findings: Findings,
 }
 
@@ -103,17 +101,17 @@ fn studied(
     let (mut scene, study) = Study::load(&arguments.scene.scene, &arguments.scene.changes(change))?;
     arguments.reading.apply(&mut scene)?;
     let records = records(arguments)?;
-    let ReadMotions { motions, errors } = ReadMotions::of(&scene, &records)?;
+    let read = ReadMotions::of(&scene, &records)?;
     let others = [&arguments.records[..], &arguments.records_vertical].concat();
     let claim = claim_of_scene("sensitivity", &arguments.scene.scene, &scene, &scene.file, &["sensitivity"], &others)?;
     // Where the results go is tried before the work, not after it.
     folder.open(&claim)?;
     let pool = arguments.threads.pool()?;
     let progress = Progress::new("runs");
-    progress.begin((study.runs() * motions.len()) as u64);
-    let findings = pool.install(|| study.run(&motions, interrupt, &|| progress.step()));
+    progress.begin((study.runs() * read.motions.len()) as u64);
+    let findings = pool.install(|| study.run(&read.motions, interrupt, &|| progress.step()));
     progress.finish();
-    Ok(Studied { findings: findings?, scene, subject: claim.subject, study, motions, errors })
+    Ok(Studied { findings: findings?, scene, subject: claim.subject, study, read })
 }
 
 /// The records, each with its vertical component.
@@ -130,7 +128,7 @@ fn records(arguments: &SensitivityArguments) -> anyhow::Result<Vec<RecordFiles>>
 
 /// Puts files, tables and notes into the report.
 fn fill(report: &mut Report, studied: &Studied, records: &[RecordSummary], warnings: &[String]) -> anyhow::Result<()> {
-    let Studied { scene, subject, study, motions, findings, errors } = studied;
+    let Studied { scene, subject, study, read: ReadMotions { motions, errors }, findings } = studied;
     let runs = summaries(findings, motions, &study.devices);
     let in_place = motions.iter().filter(|motion| !motion.own).count();
     let left_out = [&study.left_out[..], &findings.left_out, &findings.failed].concat();

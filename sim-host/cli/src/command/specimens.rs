@@ -42,11 +42,11 @@ impl Scattered {
 }
 
 /// Outcomes and quantiles of specimens; those that overturn have no peak.
-pub fn scatter(specimens: NonZeroUsize, peaks: &[f64], overturned: usize) -> Scatter {
+pub fn scatter(specimens: NonZeroUsize, peaks: &[f64]) -> Scatter {
     let at = |share: f64| quantile(peaks, share).filter(|value| value.is_finite());
     Scatter {
         specimens: specimens.get(),
-        overturned,
+        overturned: specimens.get() - peaks.len(),
         peak_rotation_05: at(0.05),
         peak_rotation_median: at(0.5),
         peak_rotation_95: at(0.95),
@@ -88,20 +88,18 @@ pub fn monte_carlo(
             specimen.file.block.restitution_seed = Some(seed);
             let run = simulate(&specimen, ground, interrupt).map(|mut runs| runs.swap_remove(0));
             progress.step();
-            run.map(|run| (seed, run))
+            // Not the run: with its history it would be kept until all are done.
+            run.map(|run| (seed, run.outcome, run.peak_rotation, run.impacts))
         };
         let runs: Vec<_> = pool.install(|| (0..count.get() as u64).into_par_iter().map(one).collect::<Result<_, _>>())?;
-        let (mut peaks, mut overturned) = (Vec::new(), 0);
-        for (seed, run) in runs {
-            if run.outcome.overturned() {
-                overturned += 1;
-            }
-            peaks.extend(run.peak_rotation);
-            let peak = run.peak_rotation.map(|peak| peak.to_string()).unwrap_or_default();
-            table.row(vec![run.device, seed.to_string(), run.outcome.to_string(), peak, run.impacts.to_string()]);
-        }
         let device = scene.devices[index].name.clone();
-        scattered.push(Scattered { device, scatter: scatter(count, &peaks, overturned) });
+        let mut peaks = Vec::new();
+        for (seed, outcome, peak, impacts) in runs {
+            peaks.extend(peak);
+            let peak = peak.map(|peak| peak.to_string()).unwrap_or_default();
+            table.row(vec![device.clone(), seed.to_string(), outcome.to_string(), peak, impacts.to_string()]);
+        }
+        scattered.push(Scattered { device, scatter: scatter(count, &peaks) });
     }
     progress.finish();
     Ok((table, scattered))

@@ -215,7 +215,6 @@ impl<'a> Problem<'a> {
         let sensors = sizing.sensors();
         let items = sizing.items(sensors.as_ref());
         let followed = asked.iter().flatten();
-        let overturned = |asked: &Option<Asked>| asked.as_ref().is_some_and(|asked| asked.outcome.overturned());
         let named = motions.iter().zip(&asked).filter(|(_, asked)| overturned(asked));
         Ok(PartsList {
             flywheels,
@@ -278,6 +277,10 @@ fn answer(asked: &Asked) -> Answer {
     Answer { outcome: asked.outcome, peak: asked.peak_rotation, error: None }
 }
 
+fn overturned(asked: &Option<Asked>) -> bool {
+    asked.as_ref().is_some_and(|asked| asked.outcome.overturned())
+}
+
 /// Peak rotation, which has no instant.
 fn rotation(asked: &Asked) -> Option<Extreme<f64>> {
     asked.peak_rotation.map(|value| Extreme { value, time: f64::NAN })
@@ -291,7 +294,6 @@ fn compare(
     motions: &[StudyMotion],
     (before, after): (&[Option<Asked>], &[Option<Asked>]),
 ) -> Built {
-    let overturned = |asked: &Option<Asked>| asked.as_ref().is_some_and(|asked| asked.outcome.overturned());
     let stood: Vec<Option<Asked>> =
         after.iter().zip(before).map(|(after, before)| after.filter(|_| !overturned(before))).collect();
     let mine = |of: &dyn Fn(&Asked) -> Option<Extreme<f64>>| {

@@ -149,8 +149,7 @@ impl Subject {
         let one = |motion: &StudyMotion| {
             let run = self.in_loop(&motion.ground, f64::INFINITY, interrupt);
             done();
-            let answer = |run: DeviceRun| Answer { outcome: run.outcome, peak: run.peak_rotation, error: None };
-            run.map(answer)
+            run.map(|run| Answer::of_run(&run))
         };
         words(motions.par_iter().map(one).collect(), interrupt)
     }

@@ -28,14 +28,15 @@ struct Fate {
     played: f64,
 }
 
-impl Fate {
-    fn best(&self, laws: &[f64]) -> f64 {
-        laws.iter().copied().fold(OVERTURNED, f64::min)
-    }
+/// The smallest of the peaks of some laws.
+fn best(laws: &[f64]) -> f64 {
+    laws.iter().copied().fold(OVERTURNED, f64::min)
+}
 
+impl Fate {
     /// Place in the legend of the map: the plainest that keeps the block standing.
     fn class(&self) -> usize {
-        let stands = [self.best(&self.laws[..PLAIN]), self.best(&self.laws[PLAIN..]), self.played.min(self.found)];
+        let stands = [best(&self.laws[..PLAIN]), best(&self.laws[PLAIN..]), self.played.min(self.found)];
         stands.iter().position(|peak| peak.is_finite()).unwrap_or(stands.len())
     }
 }
@@ -55,11 +56,9 @@ fn fates(bench: &Bench<'_>, kinds: &[Kind], known: Option<&[Vec<Fate>]>) -> Resu
             return Ok(Fate { laws, found, played });
         }
         // A record takes the search ten seconds, and a law that keeps the block standing under it has answered.
-        if let Motion::Record { .. } = motion
-            && let peak = laws.iter().copied().fold(OVERTURNED, f64::min)
-            && peak.is_finite()
-        {
-            return Ok(Fate { laws, found: peak, played: peak });
+        let best = best(&laws);
+        if matches!(motion, Motion::Record { .. }) && best.is_finite() {
+            return Ok(Fate { laws, found: best, played: best });
         }
         let bound = with_loop(motion, &bench.variant(), bench.conditions, |task| task.clairvoyant(&Grid::STANDARD))?;
         let (found, played) = bound.map_or((None, None), |bound| (bound.found.peak, bound.played));
@@ -87,8 +86,8 @@ impl Count {
         Count {
             laws: (0..fates.first().map_or(0, |fate| fate.laws.len())).map(|law| overturned(&|fate| fate.laws[law])).collect(),
             found: overturned(&|fate| fate.found),
-            played: overturned(&|fate| fate.played.min(fate.best(&fate.laws))),
-            missed: fates.iter().filter(|fate| fate.found.is_infinite() && fate.best(&fate.laws).is_finite()).count(),
+            played: overturned(&|fate| fate.played.min(best(&fate.laws))),
+            missed: fates.iter().filter(|fate| fate.found.is_infinite() && best(&fate.laws).is_finite()).count(),
         }
     }
 
@@ -136,7 +135,7 @@ fn peaks(kinds: &[Kind], fates: &[Vec<Fate>]) -> TextTable {
     let mut table = TextTable::new(1, std::iter::once("law".to_owned()).chain(kinds.iter().map(|kind| kind.name.clone())));
     let mut row = |name: &str, pick: &dyn Fn(&Fate) -> f64| {
         let median = |fates: &Vec<Fate>| {
-            let stand = fates.iter().filter(|fate| fate.best(&fate.laws[..PLAIN]).is_finite());
+            let stand = fates.iter().filter(|fate| best(&fate.laws[..PLAIN]).is_finite());
             let median = quantile(&stand.map(pick).collect::<Vec<f64>>(), 0.5);
             match median.filter(|median| median.is_finite()) {
                 Some(median) => number(median, 3),

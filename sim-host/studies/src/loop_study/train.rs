@@ -95,16 +95,16 @@ fn tally(peaks: impl Iterator<Item = Option<f64>>) -> Tally {
 }
 
 impl<'a> Ground<'a> {
-    fn new(full_state: &'a FullState, kinds: &[Vec<&'a Sized>]) -> Ground<'a> {
+    fn new(full_state: &'a FullState, kinds: &'a [Vec<Sized>]) -> Ground<'a> {
         let laws = PLAIN.into_iter().chain([
             ClutchLaw::SignTable(SignTable::EITHER),
             ClutchLaw::GatedTable(GatedTable::DEFAULT),
             ClutchLaw::LookAhead(LookAhead::default()),
         ]);
         let laws: Vec<ClutchLaw> = laws.collect();
-        let kind = |(index, motions): (usize, &Vec<&'a Sized>)| {
+        let kind = |(index, motions): (usize, &'a Vec<Sized>)| {
             let peaks = |motion: &Sized| laws.iter().map(|&law| full_state.peak(law, &motion.0)).collect::<Vec<_>>();
-            let known: Vec<(&Sized, Vec<Option<f64>>)> = motions.iter().map(|&motion| (motion, peaks(motion))).collect();
+            let known: Vec<(&Sized, Vec<Option<f64>>)> = motions.iter().map(|motion| (motion, peaks(motion))).collect();
             let told_apart = |peaks: &[Option<f64>], size: f64| {
                 peaks.iter().any(Option::is_none) && (size < HOPELESS || peaks.iter().any(Option::is_some))
             };
@@ -234,8 +234,7 @@ pub fn train(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     }
     let mut grounds = Vec::new();
     for half in &halves {
-        let kinds: Vec<Vec<&Sized>> = half.iter().map(|kind| kind.iter().collect()).collect();
-        grounds.push(all(&clutches.iter().collect::<Vec<_>>(), progress, |&clutch| Ok(Ground::new(clutch, &kinds)))?);
+        grounds.push(all(&clutches.iter().collect::<Vec<_>>(), progress, |&clutch| Ok(Ground::new(clutch, half)))?);
     }
     let mut searches = Vec::new();
     for seed in 1..=SEARCHES {
@@ -358,7 +357,8 @@ mod tests {
         };
         let sized: Vec<Sized> = motions.iter().map(|motion| (with(motion).0, 4.0)).collect();
         let clutch = with(&motions[0]).1;
-        let grounds = [Ground::new(&clutch, &[sized.iter().collect()])];
+        let kinds = [sized];
+        let grounds = [Ground::new(&clutch, &kinds)];
         assert!(grounds[0].kinds[0].motions.len() > 4);
         let began = cost(&grounds, PLAIN[2]);
         let found = search(&grounds, 3, 1, &progress, &conditions).unwrap();

@@ -6,7 +6,7 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::ErrorEstimate;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::simulation::{RunError, simulate_for_study};
+use sprag_sim::simulation::{DeviceRun, RunError, simulate_for_study};
 use sprag_sim::under_records::{Shaking, Subject, followed};
 
 use super::motion::StudyMotion;
@@ -73,15 +73,16 @@ fn by_core(subject: &Subject, motion: &StudyMotion, vertical: bool, interrupt: &
         error => Missing::Failed(error.to_string()),
     })?;
     match runs.first() {
-        Some(run) => {
-            let error = run.error.map(|report| report.estimate);
-            Ok(Answer { outcome: run.outcome, peak: run.peak_rotation, error })
-        }
+        Some(run) => Ok(Answer::of_run(run)),
         None => Err(Missing::Failed("no device".to_owned())),
     }
 }
 
 impl Answer {
+    pub(crate) fn of_run(run: &DeviceRun) -> Answer {
+        Answer { outcome: run.outcome, peak: run.peak_rotation, error: run.error.map(|report| report.estimate) }
+    }
+
     fn of_shaken(shaken: &Shaken, block: &Block) -> Answer {
         let peak = shaken.relative_peaks(block).map(|(rotation, _)| rotation);
         Answer { outcome: shaken.outcome(), peak, error: None }
