@@ -131,7 +131,7 @@ parameters! {
 
     Law "law" choice(
         &["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"],
-        3,
+        7,
     );
     LawTable "law.table" whole("", 0, 255, 0b0100_1110).only(TABLES);
     LawRow "law.row" whole("", 0, 7, 5).only(GATED);

@@ -7,7 +7,7 @@ use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::controller::{EstimatorName, LawName};
-use sprag_studies::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop, with_loop};
+use sprag_studies::loop_study::bench::{Conditions, EQUATION_10, Variant, each, run_ideal, run_loop, with_loop};
 use sprag_studies::loop_study::faults::{self, INSTANTS, Instant};
 use sprag_studies::loop_study::ideal_limit;
 use sprag_studies::loop_study::motion::{Motion, grid};
@@ -56,6 +56,7 @@ fn with_real_sensors_the_loop_is_as_good_as_the_ideal_pair() {
         let real = Variant::new(
             estimator.name(),
             &[
+                EQUATION_10,
                 &format!("controller.estimator=\"{}\"", estimator.name()),
                 "controller.sensors.suite=\"adis16470\"",
                 "controller.latency_s=0.001",

@@ -2,7 +2,7 @@
 
 use sprag_report::progress::Progress;
 use sprag_sim::interrupt::Interrupt;
-use sprag_studies::loop_study::bench::{Conditions, Variant, each, run_ideal, run_loop};
+use sprag_studies::loop_study::bench::{Conditions, EQUATION_10, Variant, each, run_ideal, run_loop};
 use sprag_studies::loop_study::losses::pulses;
 use sprag_studies::loop_study::practice::Comparison;
 
@@ -14,7 +14,7 @@ fn lags_that_are_known_make_the_current_as_good_as_a_switch() {
     let motions = pulses();
     let ideals = each(&motions, &[Variant::new("ideal", &[])], &progress, |m, v| run_ideal(m, v, &conditions)).unwrap();
     let variant = |name: &str, more: &[&str]| {
-        let mut keys = vec!["controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.02"];
+        let mut keys = vec![EQUATION_10, "controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.02"];
         keys.extend(more);
         Variant::new(name, &keys)
     };

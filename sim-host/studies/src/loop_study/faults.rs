@@ -9,7 +9,7 @@ use sprag_sim::closed_loop::failing::{ALL, Failing, Injected};
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::{Tick, TickObserver};
 
-use super::bench::{Conditions, StudyError, Variant, each, with_loop};
+use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, with_loop};
 use super::motion::Motion;
 use super::report::Report;
 
@@ -109,7 +109,13 @@ fn inject(variant: &Variant, failing: Failing, from: f64, conditions: &Condition
 pub fn results(progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<Vec<FaultResult>>, StudyError> {
     let variant = Variant::new(
         "faults",
-        &["controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.001", "controller.prelude_s=6.0", START],
+        &[
+            EQUATION_10,
+            "controller.sensors.suite=\"icm-42688-p\"",
+            "controller.latency_s=0.001",
+            "controller.prelude_s=6.0",
+            START,
+        ],
     );
     let starts = instants(&MOTION, &variant, conditions)?;
     let motions = vec![MOTION; ALL.len() * INSTANTS.len()];

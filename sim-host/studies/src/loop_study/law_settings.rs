@@ -42,23 +42,28 @@ impl Setting {
         settings
     }
 
-    /// The base with clutches as they are: `delay_ms` from sample to clutch, of which 1 ms is the controller's; released flywheels are
+    /// The same with clutches as they are: `delay_ms` from sample to clutch, of which 1 ms is the controller's; released flywheels are
     /// braked at 2 m/s² or coast.
-    pub(super) fn clutch(delay_ms: f64, braked: bool) -> Setting {
-        let mut overrides = vec![
+    pub(super) fn with_clutch(mut self, delay_ms: f64, braked: bool) -> Setting {
+        self.overrides.extend([
             "device.0.engagement=\"rigid\"".to_owned(),
             "device.0.flywheel.viscous_rate_1_s=0.05".to_owned(),
             "controller.rate_hz=1000.0".to_owned(),
             "controller.latency_s=0.001".to_owned(),
             "controller.sensors.suite=\"adis16470\"".to_owned(),
-        ];
-        overrides.extend(
+        ]);
+        self.overrides.extend(
             ["engagement_delay_s", "release_delay_s"]
                 .map(|key| format!("device.0.actuation.{key}={:?}", 1e-3 * (delay_ms - 1.0))),
         );
-        overrides.extend(braked.then(|| format!("{BRAKE}=2.0")));
+        self.overrides.extend(braked.then(|| format!("{BRAKE}=2.0")));
+        self
+    }
+
+    /// The base with such clutches, named by them.
+    pub(super) fn clutch(delay_ms: f64, braked: bool) -> Setting {
         let name = format!("{delay_ms} ms, released wheels {}", if braked { "braked" } else { "coast" });
-        Setting { name, overrides, ..Setting::base() }
+        Setting { name, ..Setting::base().with_clutch(delay_ms, braked) }
     }
 
     /// Clutches as they are: fast ones, and those that docs/effects.md calls typical.

@@ -10,7 +10,11 @@ use super::bench::{Conditions, StudyError, Variant, all, run_ideal, run_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
-use super::tally::{Pairs, Tally, fewest};
+use super::tally::{Tally, fewest};
+use others::Others;
+
+mod others;
+mod verdict;
 
 /// Laws in the order of the tables: without decisions, Eq. 10, and beyond.
 pub(super) const LAWS: [LawName; 7] = [
@@ -30,17 +34,17 @@ pub(super) const FREQUENCIES: (f64, f64) = (0.2, 8.0);
 pub(super) const AMPLITUDES: (f64, f64) = (1.0, 10.0);
 /// Peaks of records over g tan α.
 pub(super) const THRESHOLDS: [f64; 3] = [2.0, 3.0, 4.5];
-/// Cells along each axis, of the base …
+/// Cells along each axis of the base.
 const CELLS: usize = 16;
-/// … and of other blocks and devices.
-const FEW_CELLS: usize = 8;
 /// Specimens of the sensors.
 const SPECIMENS: usize = 32;
 /// Pulses of each family and specimen.
 const PULSES: usize = 4;
+/// From sample to clutch, of the clutches of other blocks and devices, ms.
+const DELAY_MS: f64 = 20.0;
 
-/// The default among [`LAWS`].
-const DEFAULT: usize = PLAIN - 1;
+/// Eq. 10 among [`LAWS`].
+pub(super) const EQUATION_10: usize = PLAIN - 1;
 
 /// Motions of one kind.
 pub(super) struct Kind {
@@ -194,22 +198,9 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     winners.push(("ideal model".to_owned(), tallies));
 
     report.section("Ideal model, other blocks and devices");
+    let others = Others::of(&bench, Setting::others(), &recorded)?;
     report.paragraph("Change of the number of overturned blocks, in percent, from the best of bare block, inerter and Eq. 10.");
-    let few = |setting: &Setting| {
-        let mut kinds = families(|family| family.grid(FEW_CELLS, FREQUENCIES, AMPLITUDES));
-        kinds.extend(Kind::of_records(&recorded, recorded.at_turns(&THRESHOLDS, alpha(setting))));
-        kinds
-    };
-    let mut table = headings(&["block or device", "law"], &few(&base));
-    for setting in &Setting::others() {
-        let (bench, kinds) = (Bench { setting, ..bench }, few(setting));
-        let tallies = bench.tallies(&bench.outcomes(&kinds)?);
-        for (index, law) in LAWS.iter().enumerate().skip(PLAIN) {
-            let cells = tallies.iter().map(|tallies| change(tallies, index));
-            table.row([setting.name.clone(), law.name().to_owned()].into_iter().chain(cells).collect());
-        }
-    }
-    report.table("laws-others", table);
+    report.table("laws-others", others.table(change));
 
     report.section("Clutches as they are");
     report.paragraph(&format!(
@@ -225,101 +216,31 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
         report.paragraph(&format!("**{}.**", setting.name));
         let table = by_law(&kinds, &tallies, |tallies, law| {
             let share = tallies[law].share().percent(false);
-            if law == DEFAULT { share } else { format!("{share} ({})", tallies[law].beyond(&tallies[DEFAULT]).percent(true)) }
+            if law == EQUATION_10 {
+                share
+            } else {
+                format!("{share} ({})", tallies[law].beyond(&tallies[EQUATION_10]).percent(true))
+            }
         });
         report.table(&format!("laws-clutch-{}", number + 1), table);
         winners.push((setting.name.clone(), tallies));
     }
-    conclude(&mut report, &kinds, &winners);
-    why(&mut report, &kinds, &winners[1..]);
+
+    report.section(&format!("A clutch of {DELAY_MS} ms, other blocks and devices"));
+    let settings = Setting::others().into_iter().map(|setting| setting.with_clutch(DELAY_MS, true)).collect();
+    let others =
+        Others::of(&Bench { setting: &base, ideal: false, specimens: SPECIMENS, progress, conditions }, settings, &recorded)?;
+    report.paragraph(
+        "Change of the number of overturned blocks, in percent, from the best of bare block, inerter and Eq. 10, and in brackets that \
+         number. Nothing was trained with these blocks and devices.",
+    );
+    report
+        .table("laws-others-clutch", others.table(|tallies, law| format!("{} ({})", change(tallies, law), tallies[law].count())));
+    others.all_together(&mut report);
+
+    verdict::conclude(&mut report, &kinds, &winners);
+    verdict::which_default(&mut report, &kinds, &winners[1..]);
     Ok(report)
-}
-
-/// A clutch's name, and tallies by kind and law.
-type Clutch = (String, Vec<Vec<Tally>>);
-
-/// Why the default law is the one that it is: the others beside it, motion by motion, with the `clutches` by name.
-fn why(report: &mut Report, kinds: &[Kind], clutches: &[Clutch]) {
-    report.section("Why this default");
-    let default = LAWS[DEFAULT].name();
-    let typical = &clutches[Setting::TYPICAL];
-    let names = typical.iter().map(|(name, _)| name.split(',').next().unwrap_or_default()).collect::<Vec<_>>().join(" and ");
-    report.paragraph(&format!(
-        "Every law beside {default}, the default, under the same motions and specimens. A cell has under how many motions the law \
-         overturns less often, under how many more often, and in brackets the probability that two equal laws come as far apart (sign test, \
-         two-sided; of single runs McNemar's exact test). A motion counts once, with all of its scales and of the clutches of its row."
-    ));
-    let pairs = |clutches: &[Clutch], law: usize| -> Vec<Pairs> {
-        let beside =
-            |kind: usize| clutches.iter().map(|(_, tallies)| (&tallies[kind][law], &tallies[kind][DEFAULT])).collect::<Vec<_>>();
-        kinds.iter().enumerate().map(|(index, kind)| Pairs::of(&beside(index), kind.different)).collect()
-    };
-    let others = || (1..LAWS.len()).filter(|&law| law != DEFAULT);
-    let pulses = Family::ALL.len();
-    let mut headings: Vec<String> = kinds.iter().map(|kind| format!("{} ({})", kind.name, kind.different)).collect();
-    headings.insert(pulses, "all pulses".to_owned());
-    let mut table = TextTable::new(2, ["clutch", "law"].map(str::to_owned).into_iter().chain(headings));
-    let mut rows: Vec<(String, &[Clutch])> =
-        clutches.iter().map(|clutch| (clutch.0.clone(), std::slice::from_ref(clutch))).collect();
-    rows.push((format!("{names}, typical ones, together"), typical));
-    rows.push(("all four together".to_owned(), clutches));
-    for (name, clutches) in rows {
-        for law in others() {
-            let mut pairs = pairs(clutches, law);
-            pairs.insert(pulses, pairs[..pulses].iter().fold(Pairs::default(), |sum, &pairs| sum.plus(pairs)));
-            table.row([name.clone(), LAWS[law].name().to_owned()].into_iter().chain(pairs.iter().map(Pairs::cell)).collect());
-        }
-    }
-    report.table("laws-paired", table);
-    if kinds.len() > pulses {
-        let better: Vec<&str> =
-            others().filter(|&law| takes_over(&pairs(typical, law), pulses)).map(|law| LAWS[law].name()).collect();
-        report.paragraph(&format!(
-            "A law takes the default's place if, with the typical clutches together, it overturns less often under the recorded motions and more \
-             often under no family of pulses, by probabilities below 0.05 each. The recorded motions decide, since how often an earthquake has \
-             which of the pulses is not known. By that rule {}.",
-            if better.is_empty() { format!("{default} stays the default") } else { format!("these do: {}", better.join(", ")) }
-        ));
-    }
-}
-
-/// Whether a law with `pairs` by kind, the families of `pulses` first, is better than the default for motions that are not known before.
-fn takes_over(pairs: &[Pairs], pulses: usize) -> bool {
-    pairs[pulses..].iter().any(Pairs::fewer) && !pairs.iter().any(Pairs::greater)
-}
-
-/// Which law is best for which motions.
-fn conclude(report: &mut Report, kinds: &[Kind], winners: &[Clutch]) {
-    report.section("Which law for which motions");
-    report.paragraph("The law with the fewest overturned blocks, and those that the specimens do not distinguish from it.");
-    let headings = std::iter::once("motions".to_owned()).chain(winners.iter().map(|(name, _)| name.clone()));
-    let mut table = TextTable::new(1 + winners.len(), headings);
-    for (index, kind) in kinds.iter().enumerate() {
-        let cells = winners.iter().map(|(_, tallies)| best(&tallies[index]));
-        table.row(std::iter::once(kind.name.clone()).chain(cells).collect());
-    }
-    report.table("laws-best", table);
-    let clutches = &winners[1..];
-    let total = |pick: &dyn Fn(usize) -> bool, law: usize| -> usize {
-        let counts = |tallies: &Vec<Vec<Tally>>| -> usize {
-            tallies.iter().enumerate().filter(|(kind, _)| pick(*kind)).map(|(_, laws)| laws[law].count()).sum()
-        };
-        clutches.iter().map(|(_, tallies)| counts(tallies)).sum()
-    };
-    let ranking = |pick: &dyn Fn(usize) -> bool| {
-        let mut order: Vec<(usize, LawName)> = LAWS.iter().enumerate().map(|(law, &name)| (total(pick, law), name)).collect();
-        order.sort_by_key(|(count, _)| *count);
-        order.iter().map(|(count, law)| format!("{} {count}", law.name())).collect::<Vec<_>>().join(", ")
-    };
-    let pulses = Family::ALL.len();
-    if kinds.len() > pulses {
-        report.paragraph(&format!(
-            "Over the recorded motions with the clutches as they are, all together ({} runs a law), overturned: {}.",
-            clutches.len() * kinds[pulses].motions.len(),
-            ranking(&|kind| kind >= pulses)
-        ));
-    }
-    report.paragraph(&format!("Over the pulses with them, all together, overturned: {}.", ranking(&|kind| kind < pulses)));
 }
 
 fn maps(kinds: &[Kind], outcomes: &[Vec<Vec<Outcome>>]) -> Result<String, StudyError> {
@@ -362,13 +283,5 @@ mod tests {
         assert_eq!([change(&tallies, 3), change(&tallies, 4), change(&tallies, 5)], ["-20", "+0", "+100"]);
         assert_eq!(best(&tallies), "sign-table");
         assert_eq!(change(&[tally(0), tally(0), tally(0), tally(1)], 3), "-");
-    }
-
-    #[test]
-    fn a_law_takes_over_only_by_records_and_at_no_familys_cost() {
-        let (even, fewer, more) = (Pairs { less: 9, more: 9 }, Pairs { less: 20, more: 2 }, Pairs { less: 2, more: 20 });
-        assert!(takes_over(&[even, fewer, fewer], 2));
-        assert!(!takes_over(&[fewer, fewer, even], 2), "pulses alone");
-        assert!(!takes_over(&[fewer, more, fewer], 2), "at a family's cost");
     }
 }

@@ -6,7 +6,7 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::closed_loop::failing::{Failing, Injected, Part};
 use sprag_sim::closed_loop::plant::Extremes;
 
-use super::bench::{Conditions, StudyError, Variant, each, with_loop};
+use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, with_loop};
 use super::faults::instants;
 use super::motion::{Motion, grid};
 use super::practice::{COLUMNS, Comparison};
@@ -36,7 +36,7 @@ pub fn pulses() -> Vec<Motion> {
 pub fn losses(motions: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<Comparison>, StudyError> {
     let variants = LOSSES.map(|(name, _, safe)| {
         let safe = format!("controller.safe_state=\"{safe}\"");
-        Variant::new(name, &["controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.001", &safe])
+        Variant::new(name, &[EQUATION_10, "controller.sensors.suite=\"icm-42688-p\"", "controller.latency_s=0.001", &safe])
     });
     let whole = each(motions, &variants[..1], progress, |motion, variant| {
         let from = instants(motion, variant, conditions)?[2];
