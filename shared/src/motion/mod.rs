@@ -1,11 +1,14 @@
 //! Event-driven integration of a rocking block.
 //!
-//! [`ideal`]: of devices whose clutch has no memory; [`hybrid`]: of devices with a memory, as a hybrid automaton; [`rest`]: how free rocking
+//! [`ideal`]: of devices whose clutch has no memory; [`hybrid`]: of devices with a memory, as a hybrid automaton;
+//! [`compliant`]: of a block on a compliant foundation; [`rest`]: how free rocking
 //! ends; [`step_end`]: time stepping without event location, as the yardstick of accuracy and cost. [`state`], [`observer`],
 //! [`device_snapshot`]: what all share.
-//! The room imports `math`, `equation`, `ground`, `drivetrain` and `method`; `ideal` and `hybrid` also `structure`.
+//! The room imports `math`, `equation`, `ground`, `drivetrain` and `method`; `ideal`, `hybrid` and `compliant` also `structure`.
 
+pub mod compliant;
 pub mod device_snapshot;
+pub mod ground_pair;
 pub mod hybrid;
 pub mod ideal;
 pub mod observer;

@@ -8,6 +8,7 @@ pub mod block;
 pub mod device;
 pub mod drivetrain;
 pub mod error;
+pub mod foundation;
 pub mod gear_teeth;
 pub mod inertance;
 pub mod mount;
