@@ -186,6 +186,7 @@ mod tests {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         };
         let system = structure.resolve().unwrap();

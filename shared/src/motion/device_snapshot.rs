@@ -35,4 +35,9 @@ pub trait DeviceOutput<S: Real> {
 
     /// Block and device at `time` after the start of the step.
     fn snapshot(&self, time: S) -> Snapshot<S>;
+
+    /// Displacement of the base over the ground at `time` after the start of the step, m; 0 where it cannot slide.
+    fn displacement(&self, _time: S) -> S {
+        S::ZERO
+    }
 }

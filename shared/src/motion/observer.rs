@@ -21,7 +21,9 @@ pub enum Event {
     Switch,
     /// A clutch of a device with a memory stuck, slipped, or took up its play; the state is the one after it.
     Coupling,
-    /// Rest: the impacts have accumulated.
+    /// The base of the block began to slide over the ground, or sticks again; the state is the one after it.
+    Slip,
+    /// Rest: the impacts have accumulated, or the slide of a block on its base has ended.
     Rest,
     /// Overturning: the block cannot return.
     Overturned,

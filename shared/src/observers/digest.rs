@@ -57,6 +57,7 @@ impl<S: Real> Observer<S> for Digest {
             Event::Rest => 6,
             Event::Overturned => 7,
             Event::Coupling => 8,
+            Event::Slip => 9,
         };
         self.instant(state.rotation, state.velocity, state.side, kind);
     }

@@ -6,7 +6,7 @@ use super::peaks::Peaks;
 use crate::math::scalar::Real;
 use crate::motion::state::{BlockState, Phase};
 
-/// The four outcomes of the paper's section 4, in the order of what they ask of the ground.
+/// The four outcomes of the paper's section 4, in the order of what they ask of the ground, and where the model ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -18,10 +18,12 @@ pub enum Outcome {
     OverturnedWithoutImpact,
     /// It overturns after one impact or more (Region 2).
     OverturnedAfterImpact,
+    /// The toe of a block that slides leaves the ground, where the run ends: the flight is not modelled.
+    LiftedOff,
 }
 
 impl Outcome {
-    /// Each, in the order of their numbers.
+    /// Those of the paper, in the order of their numbers: each of a block that cannot slide.
     pub const ALL: [Outcome; 4] =
         [Outcome::NoRocking, Outcome::Safe, Outcome::OverturnedWithoutImpact, Outcome::OverturnedAfterImpact];
 
@@ -47,12 +49,18 @@ impl Outcome {
             Outcome::Safe => "safe",
             Outcome::OverturnedWithoutImpact => "overturned-without-impact",
             Outcome::OverturnedAfterImpact => "overturned-after-impact",
+            Outcome::LiftedOff => "lifted-off",
         }
     }
 
     /// The outcome that is printed as `name`.
     pub fn from_name(name: &str) -> Option<Outcome> {
         Outcome::ALL.into_iter().find(|outcome| outcome.name() == name)
+    }
+
+    /// The run went to its end: it has peaks.
+    pub fn stands(self) -> bool {
+        matches!(self, Outcome::NoRocking | Outcome::Safe)
     }
 
     /// The block lies on the ground.

@@ -59,6 +59,7 @@ impl<S: Real> Observer<S> for Peaks<S> {
                     self.first_counted_impact = self.first_counted_impact.or(at);
                 }
             }
+            Event::Slip => self.ended = None,
             Event::Rest | Event::Overturned => self.ended = Some(self.origin + time),
             _ => {}
         }

@@ -49,6 +49,7 @@ fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     }
 }

@@ -118,6 +118,7 @@ mod tests {
             added_mass,
             restitution: Restitution::MomentumBalance,
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         }
     }

@@ -101,6 +101,7 @@ fn structure(geometry: Geometry, kind: DeviceKind) -> Structure {
         added_mass: AddedMass::NONE,
         restitution,
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     }
 }

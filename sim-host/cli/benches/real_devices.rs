@@ -157,6 +157,7 @@ fn structure(geometry: Geometry, index: u32) -> Option<Structure> {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     })
 }

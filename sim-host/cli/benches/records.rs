@@ -98,6 +98,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structu
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     })
 }

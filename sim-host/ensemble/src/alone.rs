@@ -47,6 +47,7 @@ impl PulsedBlock {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.plain.restitution),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         })
     }

@@ -40,7 +40,7 @@ impl PlainBlock {
 
     /// The block of `structure`, if the lanes have its device.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
-        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, .. } = structure;
+        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient, .. } = structure;
         let k = device.mass_ratio / block.inertia_ratio();
         let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
             (_, DeviceKind::None, ..) => 0.0,
@@ -49,7 +49,7 @@ impl PlainBlock {
             _ => return None,
         };
         let restitution = restitution.evaluate(block, *geometry, device).ok()?;
-        let lanes_know = added_mass.is_none() && !restitution_scatter.is_on();
+        let lanes_know = added_mass.is_none() && !restitution_scatter.is_on() && friction_coefficient.is_none();
         lanes_know.then_some(PlainBlock {
             geometry: *geometry,
             device: device.kind,

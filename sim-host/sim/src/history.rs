@@ -22,6 +22,8 @@ pub struct Sample {
     pub force_ratio: [f64; 2],
     /// The flywheel that moves with the block: 0 for none, 1 for the first, 2 for the second.
     pub engaged: u8,
+    /// Displacement of the base over the ground (m); 0 where it cannot slide.
+    pub displacement_m: f64,
 }
 
 impl Sample {
@@ -46,6 +48,8 @@ pub struct History {
     pub samples: Vec<Sample>,
     /// Times of the impacts (s).
     pub impacts_s: Vec<f64>,
+    /// The base of the block may slide.
+    pub slides: bool,
 }
 
 impl History {
@@ -137,7 +141,10 @@ pub const COLUMNS: [&str; 9] = [
     "engaged",
 ];
 
-/// Writes all samples of `histories` as one long-form CSV table with the columns [`COLUMNS`].
+/// The column after [`COLUMNS`] where a base may slide.
+pub const DISPLACEMENT: &str = "displacement_m";
+
+/// Writes all samples of `histories` as one long-form CSV table with the columns [`COLUMNS`], and [`DISPLACEMENT`] where one may slide.
 ///
 /// Numbers are the shortest text that reads back as the same `f64`.
 ///
@@ -146,7 +153,8 @@ pub const COLUMNS: [&str; 9] = [
 /// [`HistoryError`] when `out` does not take the bytes.
 pub fn write_csv(histories: &[History], out: &mut impl io::Write) -> Result<(), HistoryError> {
     let mut table = csv::Writer::from_writer(out);
-    table.write_record(COLUMNS)?;
+    let slides = histories.iter().any(|history| history.slides);
+    table.write_record(COLUMNS.into_iter().chain(slides.then_some(DISPLACEMENT)))?;
     for history in histories {
         for sample in &history.samples {
             table.write_field(&history.device)?;
@@ -162,6 +170,9 @@ pub fn write_csv(histories: &[History], out: &mut impl io::Write) -> Result<(), 
                 table.write_field(format!("{number:?}"))?;
             }
             table.write_field(sample.engaged.to_string())?;
+            if slides {
+                table.write_field(format!("{:?}", sample.displacement_m))?;
+            }
             table.write_record(None::<&[u8]>)?;
         }
     }
@@ -182,6 +193,7 @@ mod tests {
             acceleration_rad_s2: 1e-9,
             force_ratio: [0.03, -0.05],
             engaged,
+            displacement_m: 0.25,
         }
     }
 
@@ -193,6 +205,7 @@ mod tests {
             frequency_parameter_1_s: 2.0,
             samples,
             impacts_s: vec![],
+            slides: false,
         }
     }
 
@@ -240,5 +253,9 @@ mod tests {
         assert_eq!(rows[0][1].parse::<f64>().unwrap().to_bits(), (0.1f64 + 0.2).to_bits());
         assert_eq!(rows[0][4].parse::<f64>().unwrap().to_bits(), (1.0f64 / 3.0).to_bits());
         assert_eq!(&rows[0][8], "2");
+        let mut bytes = Vec::new();
+        write_csv(&[History { slides: true, ..history }], &mut bytes).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
+        assert!(text.starts_with(&format!("{},{DISPLACEMENT}\n", COLUMNS.join(","))) && text.ends_with(",2,0.25\n"), "{text}");
     }
 }

@@ -131,13 +131,13 @@ fn check(run: &DeviceRun, end: f64, text: &str) {
         "{} s, not {end} s\n{text}",
         run.end_time_s
     );
-    assert_eq!(run.peak_rotation.is_none(), run.outcome.overturned(), "{text}");
+    assert_eq!(run.peak_rotation.is_some(), run.outcome.stands(), "{text}");
     assert_eq!(run.impacts > 0, run.first_impact_time_s.is_some(), "{text}");
     match run.outcome {
         Outcome::NoRocking => assert_eq!((run.impacts, run.peak_rotation), (0, Some(0.0)), "{text}"),
         Outcome::OverturnedWithoutImpact => assert_eq!(run.impacts, 0, "{text}"),
         // An impact too weak to count is one, too.
-        Outcome::OverturnedAfterImpact | Outcome::Safe => {}
+        Outcome::OverturnedAfterImpact | Outcome::Safe | Outcome::LiftedOff => {}
     }
     if let Some(energy) = &run.energy {
         assert!(energy.entries.residual.is_finite(), "{:?}\n{text}", energy.entries);

@@ -29,5 +29,6 @@ mod runner;
 pub mod scatter;
 pub mod scene;
 pub mod simulate;
+pub mod sliding;
 pub mod step;
 pub mod tally;

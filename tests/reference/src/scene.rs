@@ -65,6 +65,7 @@ pub struct BlockTable {
     #[serde(default)]
     pub restitution_seed: u64,
     pub mass_kg: Option<f64>,
+    pub friction_coefficient: Option<f64>,
     #[serde(default)]
     pub initial_rotation_ratio: f64,
     #[serde(default)]

@@ -21,6 +21,7 @@ pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     }
 }

@@ -22,7 +22,7 @@ pub struct Tally<S> {
     /// Steps: intervals at the start of an arc.
     pub steps: u64,
     /// Events: uplift, impact, turn, switch, coupling, rest, overturned.
-    pub events: [u64; 7],
+    pub events: [u64; 8],
     /// Deepest reach below the floor, in ulps of the largest |θ| so far and of how far the block moves in the time of its piece.
     pub depth: f64,
     /// The same in rad.
@@ -141,6 +141,7 @@ fn index(event: Event) -> usize {
         Event::Coupling => 4,
         Event::Rest => 5,
         Event::Overturned => 6,
+        Event::Slip => 7,
     }
 }
 

@@ -36,6 +36,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structur
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     }
 }

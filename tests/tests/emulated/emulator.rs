@@ -30,6 +30,7 @@ fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: 1e-6,
     }
 }

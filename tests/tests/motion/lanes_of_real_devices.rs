@@ -83,6 +83,7 @@ fn structures(geometry: Geometry) -> Vec<Structure> {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(restitution),
             restitution_scatter: RestitutionScatter { deviation: if index == 1 { 0.05 } else { 0.0 }, seed: 5 },
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         }
     };

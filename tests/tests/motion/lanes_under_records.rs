@@ -44,6 +44,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, (size, slenderness, restituti
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     }
 }

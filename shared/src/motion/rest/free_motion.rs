@@ -139,6 +139,7 @@ mod tests {
                     added_mass: AddedMass::NONE,
                     restitution: Restitution::Constant(0.93),
                     restitution_scatter: RestitutionScatter::NONE,
+                    friction_coefficient: None,
                     rest_speed: REST_SPEED,
                 };
                 let (followed, _) = followed(&structure, rotation, velocity);

@@ -282,7 +282,7 @@ impl<S: Real> Observer<S> for Ledger<S> {
                 self.rest(&mut last);
                 self.since = Since { stood: true, ..Since::default() };
             }
-            Event::Turn | Event::Overturned => return,
+            Event::Turn | Event::Slip | Event::Overturned => return,
         }
         self.state_of_affairs(last);
     }

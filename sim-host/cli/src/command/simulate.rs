@@ -96,6 +96,9 @@ impl Run for SimulateArguments {
                 report.print(format_args!("device `{}`: {}", run.device, error.words(run.peak_rotation)));
             }
         }
+        for (run, sliding) in runs.iter().filter_map(|run| Some((run, run.sliding?))) {
+            report.print(format_args!("device `{}`: {}", run.device, sliding.words()));
+        }
         if scene.file.checks.as_ref().is_none_or(|checks| checks.friction_coefficient.is_none()) {
             friction_lines(&runs).iter().for_each(|line| report.print(line));
         }

@@ -50,7 +50,8 @@ impl From<Outcome> for Cell {
     fn from(outcome: Outcome) -> Cell {
         match outcome {
             Outcome::NoRocking => Cell::NoRocking,
-            Outcome::Safe => Cell::Stands,
+            // Studies refuse a run that ends in flight.
+            Outcome::Safe | Outcome::LiftedOff => Cell::Stands,
             Outcome::OverturnedWithoutImpact => Cell::Overturns,
             Outcome::OverturnedAfterImpact => Cell::OverturnsAfterImpact,
         }

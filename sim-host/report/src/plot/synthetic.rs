@@ -31,6 +31,7 @@ fn train(device: &str, outcome: &str, count: usize, height: impl Fn(f64) -> f64)
             acceleration_rad_s2: -8.0 * ALPHA_RAD * height(time_s) * wave,
             force_ratio: [0.0; 2],
             engaged: 0,
+            displacement_m: 0.0,
         };
         if number != half_waves {
             // Left and right limit of the velocity at the impact.

@@ -98,6 +98,7 @@ impl Case {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.restitution),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: self.rest_speed,
         })
     }

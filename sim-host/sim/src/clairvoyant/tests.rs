@@ -30,6 +30,7 @@ fn rocker(geometry: Geometry, engagement: Engagement) -> Rocker {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         rest_speed: REST_SPEED,
     };
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0 };

@@ -41,6 +41,21 @@ pub const SCATTER: Effect = Effect {
     is_on: |scene, _| scene.file.block.scatter().is_on(),
 };
 
+/// A base that slides.
+pub const SLIDING: Effect = Effect {
+    name: "sliding",
+    summary: "Coulomb friction under a block without a device: the base slides flat, or under the block while it rocks",
+    equation: &[
+        "stands while |ü_g| ≤ (g + v̈_g) min(μ, tan α); slides flat by ẍ = −μ d (g + v̈_g) − ü_g,  d = sgn ẋ",
+        "rocks about a toe that sticks while |H| ≤ μ V; about one that slides, H = −μ d V, with q = sin δ − μ d cos δ:",
+        "(λ − 1 + q sin δ) θ̈ = −q (g + v̈_g − R cos δ θ̇²)/R,  V/m = (λ − 1)(g + v̈_g − R cos δ θ̇²)/(λ − 1 + q sin δ)",
+        "impact: impulses at the new toe within the cone, |P_x| ≤ μ P_y; the run ends where V = 0: flight is not modelled",
+    ],
+    source: "Shenton and Jones 1991, Shenton 1996 (slide, rock, slide-rock); Newmark 1965; impact by moment of momentum, derived here",
+    keys: &["block.friction_coefficient"],
+    is_on: |scene, _| scene.file.block.friction_coefficient.is_some(),
+};
+
 /// Where η comes from.
 pub const IMPACT: Effect = Effect {
     name: "impact",

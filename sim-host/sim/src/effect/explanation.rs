@@ -7,6 +7,7 @@ use sprag_shared::structure::drivetrain::Engagement;
 use super::motion::motion;
 use super::number::number;
 use super::{EFFECTS, Effect, rules};
+use crate::scene::sliding::step;
 use crate::scene::schema::{EventTreatment, MethodName, Precision};
 use crate::scene::{Scene, SceneDevice};
 
@@ -132,6 +133,11 @@ impl Explanation {
 /// Which engine, and how it integrates.
 fn engine(subject: &Subject<'_>) -> String {
     let accuracy = &subject.scene.file.accuracy;
+    if subject.scene.file.block.friction_coefficient.is_some() {
+        let precision = if accuracy.precision == Precision::F32 { " in f32" } else { "" };
+        let step = number(step(&subject.scene.file, &subject.scene.block));
+        return format!("a block whose base may slide: modes of its own; located events, Runge-Kutta 4{precision}, step {step} s");
+    }
     let what = if subject.scene.is_ideal(subject.index) {
         "ideal: the device's state follows from the block's"
     } else if subject.device.is_ideal() && subject.has_vertical() {

@@ -35,11 +35,12 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 15] = [
+pub const EFFECTS: [&Effect; 16] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
     &block::SCATTER,
+    &block::SLIDING,
     &device::MOUNT,
     &device::SUPPORT,
     &device::KINEMATICS,

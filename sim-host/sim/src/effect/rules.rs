@@ -145,6 +145,12 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
             "each impact draws its own η: normal about that with standard deviation {deviation}, 0 < η ≤ 1; seed {seed}"
         ));
     }
+    if let Some(friction) = subject.scene.file.block.friction_coefficient {
+        let friction = number(friction);
+        lines.push(format!("slides from rest when |ü_g| > μ g (with v̈_g: μ (g + v̈_g)), if μ < tan α,  μ = {friction}"));
+        lines.push("while it rocks the toe slips where |H| > μ V, and sticks again at ẋ = 0 where |H| ≤ μ V".to_owned());
+        lines.push("an impact whose impulses need more than μ slides: P_x = −μ d P_y,  d = sgn ẋ after it".to_owned());
+    }
     if subject.device.device.kind == DeviceKind::ClutchedPair {
         let at_impact = match drivetrain.engagement {
             Engagement::Ideal => None,

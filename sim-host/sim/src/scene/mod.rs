@@ -14,6 +14,7 @@ pub mod overrides;
 mod plain_block;
 pub mod schema;
 pub mod sensors;
+pub mod sliding;
 mod warnings;
 pub mod weight;
 
@@ -122,9 +123,17 @@ impl Scene {
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
             let structure = structure(&file, block, restitution, &device);
-            let structure = Structure { restitution_scatter: RestitutionScatter::NONE, ..structure };
+            let structure =
+                Structure { restitution_scatter: RestitutionScatter::NONE, friction_coefficient: None, ..structure };
             structure.resolve::<f64>().map_err(|error| refusal(&error, origin, index))?;
             devices.push(device);
+        }
+        if let Some(friction) = file.block.friction_coefficient {
+            sliding::check(&file, &devices, friction, &key)?;
+            for (index, device) in devices.iter().enumerate() {
+                let slides = structure(&file, block, restitution, device).resolve_sliding::<f64>();
+                slides.map_err(|error| refusal(&error, origin, index))?;
+            }
         }
         for (tables, name, direction) in
             [(&file.ground, "ground", Direction::Horizontal), (&file.vertical, "vertical", Direction::Vertical)]
@@ -201,7 +210,9 @@ impl Scene {
     /// Whether the loop of ideal devices is enough for device number `index` (below the number of devices), on ground that moves as the
     /// scene says.
     pub fn is_ideal(&self, index: usize) -> bool {
-        self.devices[index].is_ideal() && self.file.vertical.is_empty() && !self.file.block.scatter().is_on()
+        let block = &self.file.block;
+        let all_alike = !block.scatter().is_on() && block.friction_coefficient.is_none();
+        self.devices[index].is_ideal() && self.file.vertical.is_empty() && all_alike
     }
 
     /// g tan α, or gα for the slender model, in g.
@@ -244,6 +255,7 @@ fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &
         added_mass: device.added_mass,
         restitution,
         restitution_scatter: file.block.scatter(),
+        friction_coefficient: file.block.friction_coefficient,
         rest_speed: file.run.rest_speed_ratio,
     }
 }
@@ -252,6 +264,8 @@ fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &
 fn refusal(error: &ParameterError, origin: &str, index: usize) -> SceneError {
     let key = match error.parameter {
         "rest_speed" => "run.rest_speed_ratio".to_owned(),
+        "friction_coefficient" => "block.friction_coefficient".to_owned(),
+        "restitution" => "block.restitution".to_owned(),
         "height" | "carried height" => format!("device.{index}.mount_height_m"),
         rule if rule.ends_with(" restitution") => format!("block.restitution: the {rule} of device.{index}"),
         parameter => format!("device.{index}.{parameter}"),
@@ -267,7 +281,8 @@ fn first_beyond_ideal(file: &SceneFile, devices: &[SceneDevice]) -> Option<Strin
     };
     let vertical = || (!file.vertical.is_empty()).then(|| "vertical".to_owned());
     let scatter = || file.block.scatter().is_on().then(|| "block.restitution_scatter".to_owned());
-    tables.into_iter().find_map(of_device).or_else(vertical).or_else(scatter)
+    let friction = || file.block.friction_coefficient.map(|_| "block.friction_coefficient".to_owned());
+    tables.into_iter().find_map(of_device).or_else(vertical).or_else(scatter).or_else(friction)
 }
 
 #[cfg(test)]

@@ -3,7 +3,8 @@
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::observers::checks::{Checks, Extreme, Report};
-use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
+use sprag_shared::structure::device::DeviceKind;
 use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
 use sprag_shared::structure::inertance::Flywheel;
 
@@ -167,11 +168,13 @@ impl Demand {
             located: Located::of(task, &report),
             coils,
         };
-        demand.warn(table, &Impulses::of(&report));
+        let shows_slide = task.device().device.kind == DeviceKind::None && task.scene.geometry() == Geometry::Full;
+        demand.warn(table, &Impulses::of(&report), shows_slide);
         demand
     }
 
-    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses) {
+    /// `shows_slide`: another key shows what such a block does where it would slide.
+    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses, shows_slide: bool) {
         if let Some(allowed) = table.gear.map(|gear| gear.allowable_stress_mpa) {
             for (mesh, stress) in self.tooth_stress_mpa.iter().enumerate().filter(|(_, stress)| **stress > allowed) {
                 self.warnings.push(format!("teeth of mesh {} are overloaded: {stress:.1} MPa, {allowed} MPa allowed", mesh + 1));
@@ -187,6 +190,11 @@ impl Demand {
             warn(format!("the toe would slide: a coefficient of friction of {needed:.3} is needed, {available} is there"));
         }
         impulses.warnings(table.friction_coefficient).into_iter().for_each(&mut warn);
+        let available = table.friction_coefficient.filter(|_| shows_slide);
+        let needed = [self.friction_needed, impulses.impact_friction_needed].into_iter().flatten().reduce(f64::max);
+        if let Some(friction) = available.filter(|available| needed.is_some_and(|needed| needed > *available)) {
+            warn(format!("block.friction_coefficient = {friction} without [checks] shows how far the base slides"));
+        }
         if let (Some(limit), Some(force)) = (table.largest_force_ratio, self.force_ratio)
             && force > limit
         {

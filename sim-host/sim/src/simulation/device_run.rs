@@ -9,6 +9,7 @@ use sprag_shared::observers::peaks::Peaks;
 use super::demand::{Demand, Impulses, support_force_ratio};
 use super::energy::EnergyReport;
 use super::run::Task;
+use super::sliding_report::SlidingReport;
 use super::step_end::Trace;
 use super::watchers::Watchers;
 use crate::accuracy::answer::Comparable;
@@ -23,9 +24,9 @@ pub struct DeviceRun {
     pub device: String,
     /// Outcome of the run.
     pub outcome: Outcome,
-    /// max |θ|/α; null when overturned.
+    /// max |θ|/α; null when overturned or lifted off.
     pub peak_rotation: Option<f64>,
-    /// max |θ̈|/(p²α); null when overturned.
+    /// max |θ̈|/(p²α); null when overturned or lifted off.
     pub peak_acceleration: Option<f64>,
     /// Impacts that came in with more than 1e-6 pα.
     pub impacts: u32,
@@ -50,6 +51,9 @@ pub struct DeviceRun {
     /// Where the energy went, where the scene keeps a ledger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy: Option<EnergyReport>,
+    /// What the base did, where it may slide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sliding: Option<SlidingReport>,
     /// How accurate it is, where that was asked for.
     #[serde(rename = "error_estimate", skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorReport>,
@@ -121,6 +125,7 @@ pub(crate) struct Found {
     pub impulses: Impulses,
     pub checks: Option<Demand>,
     pub energy: Option<EnergyReport>,
+    pub sliding: Option<SlidingReport>,
 }
 
 impl Found {
@@ -138,6 +143,7 @@ impl Found {
             impulses: checks.map(|checks| Impulses::of(&checks.before_fall())).unwrap_or_default(),
             checks: demand,
             energy: asked.energy(),
+            sliding: None,
         }
     }
 }
@@ -159,8 +165,9 @@ impl DeviceRun {
     pub(crate) fn of<S: Real>(task: &Task<'_>, state: &BlockState<S>, peaks: &Peaks<S>, found: Found) -> DeviceRun {
         let device = task.device().name.clone();
         let (alpha, p) = (task.scene.block.slenderness(), task.scene.block.frequency_parameter());
-        let outcome = Outcome::of(state, peaks);
-        let safe = |value: S| (!outcome.overturned()).then_some(value.to_f64());
+        let lifted_off = found.sliding.is_some_and(|sliding| sliding.lifted_off_time_s.is_some());
+        let outcome = if lifted_off { Outcome::LiftedOff } else { Outcome::of(state, peaks) };
+        let safe = |value: S| outcome.stands().then_some(value.to_f64());
         DeviceRun {
             device: device.clone(),
             outcome,
@@ -175,6 +182,7 @@ impl DeviceRun {
             impulses: found.impulses,
             checks: found.checks,
             energy: found.energy,
+            sliding: found.sliding,
             error: None,
             history: History {
                 device,
@@ -183,6 +191,7 @@ impl DeviceRun {
                 frequency_parameter_1_s: p,
                 samples: found.samples,
                 impacts_s: found.impacts_s,
+                slides: found.sliding.is_some(),
             },
         }
     }

@@ -84,7 +84,7 @@ impl<'a> Course<'a> {
         self.angle(machine.push_bound(bound, lightest))
     }
 
-    fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
+    pub(super) fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
         Limits { overturned: self.angle(bound), events: MOST_ARCS }
     }
 

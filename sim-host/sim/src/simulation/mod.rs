@@ -17,6 +17,9 @@ mod machine;
 pub mod recorder;
 pub mod run;
 pub mod scatter;
+#[cfg_attr(not(feature = "effects"), path = "no_machine.rs")]
+mod sliding;
+pub mod sliding_report;
 pub mod step_end;
 pub mod watchers;
 

@@ -21,6 +21,11 @@ pub struct Recorder<'a> {
     pub impacts: Vec<f64>,
     /// Clutch switches.
     pub switches: u32,
+    /// When the base first slid, s.
+    pub first_slip: Option<f64>,
+    slides: bool,
+    /// Of the base, m.
+    displacement: f64,
     force_scale: f64,
     stays_engaged: bool,
     interval: f64,
@@ -39,6 +44,9 @@ impl<'a> Recorder<'a> {
             samples: Vec::new(),
             impacts: Vec::new(),
             switches: 0,
+            first_slip: None,
+            slides: false,
+            displacement: 0.0,
             force_scale,
             stays_engaged,
             interval,
@@ -48,6 +56,11 @@ impl<'a> Recorder<'a> {
             broken: true,
             pending: None,
         }
+    }
+
+    /// With the displacement of the base.
+    pub fn sliding(self) -> Self {
+        Recorder { slides: true, ..self }
     }
 
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
@@ -67,8 +80,9 @@ impl<'a> Recorder<'a> {
         self.segments.get(index).map_or(0.0, |s| s.shape.acceleration(time - s.start) * GRAVITY)
     }
 
-    fn sample<S: Real>(&self, time: f64, snapshot: &Snapshot<S>) -> Sample {
-        let Snapshot { motion, ground, device: Account { force, engaged, .. }, .. } = snapshot;
+    /// At `time` from the origin, `local` from the start of the step.
+    fn sample<S: Real>(&self, time: f64, output: &dyn DeviceOutput<S>, local: S) -> Sample {
+        let Snapshot { motion, ground, device: Account { force, engaged, .. }, .. } = output.snapshot(local);
         let force_ratio = force.map(|force| force.to_f64() * self.force_scale);
         Sample {
             time_s: time,
@@ -82,6 +96,7 @@ impl<'a> Recorder<'a> {
                 [true, _] => 1,
                 [false, true] => 2,
             },
+            displacement_m: if self.slides { output.displacement(local).to_f64() } else { 0.0 },
         }
     }
 
@@ -94,6 +109,7 @@ impl<'a> Recorder<'a> {
             acceleration_rad_s2: 0.0,
             force_ratio: [0.0; 2],
             engaged: u8::from(self.stays_engaged),
+            displacement_m: self.displacement,
         }
     }
 
@@ -133,7 +149,7 @@ impl<S: Real> Observer<S> for Recorder<'_> {
         let at = |time: S| self.origin + (interval.start + time).to_f64();
         let (from, to) = (at(interval.from), at(interval.to));
         if self.broken {
-            let sample = self.sample(from, &output.snapshot(interval.from));
+            let sample = self.sample(from, output, interval.from);
             self.push(sample);
             self.broken = false;
             while self.grid() <= from {
@@ -142,11 +158,13 @@ impl<S: Real> Observer<S> for Recorder<'_> {
         }
         while self.grid() < to {
             let time = self.grid();
-            let sample = self.sample(time, &output.snapshot(S::of(time - start)));
+            let sample = self.sample(time, output, S::of(time - start));
             self.push(sample);
             self.next += 1;
         }
-        self.pending = Some(self.sample(to, &output.snapshot(interval.to)));
+        let last = self.sample(to, output, interval.to);
+        self.displacement = last.displacement_m;
+        self.pending = Some(last);
     }
 
     fn event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
@@ -178,6 +196,11 @@ impl<S: Real> Observer<S> for Recorder<'_> {
             }
             Event::Coupling => {
                 self.flush();
+                self.broken = true;
+            }
+            Event::Slip => {
+                self.first_slip = self.first_slip.or(Some(at));
+                self.stand_until(at);
                 self.broken = true;
             }
             Event::Turn | Event::Overturned => self.flush(),

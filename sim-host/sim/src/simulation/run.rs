@@ -16,7 +16,7 @@ use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
 use super::watchers::Watchers;
-use super::{ideal, machine};
+use super::{ideal, machine, sliding};
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
@@ -72,6 +72,14 @@ pub enum RunError {
         /// Device.
         device: String,
     },
+    /// The toe of a block that slides left the ground, in a study: its answer has a peak.
+    #[error("{device}: at {time} s the toe lifts off the ground, and its flight is not modelled")]
+    LiftedOff {
+        /// Device.
+        device: String,
+        /// s.
+        time: f64,
+    },
     /// Ctrl-C.
     #[error("interrupted")]
     Interrupted,
@@ -89,9 +97,14 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
 /// toe is left out unless the table asks for friction or gears.
 ///
 /// # Errors
-/// The errors of [`simulate`].
+/// The errors of [`simulate`], and [`RunError::LiftedOff`].
 pub fn simulate_for_study(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
-    runs(scene, ground, false, interrupt)
+    let runs = runs(scene, ground, false, interrupt)?;
+    let lifted = |run: &DeviceRun| Some((run.device.clone(), run.sliding?.lifted_off_time_s?));
+    match runs.iter().find_map(lifted) {
+        Some((device, time)) => Err(RunError::LiftedOff { device, time }),
+        None => Ok(runs),
+    }
 }
 
 fn runs(scene: &Scene, ground: &GroundMotions, reports: bool, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
@@ -153,7 +166,13 @@ impl<'a> Task<'a> {
 
     /// Run of the device.
     pub fn run(&self) -> Result<DeviceRun, Failure> {
-        if self.is_ideal() { ideal::run(self) } else { machine::run(self) }
+        if self.scene.file.block.friction_coefficient.is_some() {
+            sliding::run(self)
+        } else if self.is_ideal() {
+            ideal::run(self)
+        } else {
+            machine::run(self)
+        }
     }
 
     /// Its run as accurately as `level` asks, with its error; that of a device with a memory is looked at by a second method.

@@ -151,6 +151,7 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
                         (true, false) => 1,
                         (true, true) => 2,
                     },
+                    displacement_m: 0.0,
                 });
             }
             if falls {

@@ -28,7 +28,8 @@ impl Counts {
     pub fn add(&mut self, outcome: Outcome) {
         *match outcome {
             Outcome::NoRocking => &mut self.no_rocking,
-            Outcome::Safe => &mut self.safe,
+            // Studies refuse a run that ends in flight.
+            Outcome::Safe | Outcome::LiftedOff => &mut self.safe,
             Outcome::OverturnedWithoutImpact => &mut self.overturned_without_impact,
             Outcome::OverturnedAfterImpact => &mut self.overturned_after_impact,
         } += 1;

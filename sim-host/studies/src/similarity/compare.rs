@@ -96,6 +96,7 @@ mod tests {
             acceleration_rad_s2: 0.0,
             force_ratio: [0.0; 2],
             engaged: 0,
+            displacement_m: 0.0,
         }
     }
 

@@ -28,6 +28,7 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.875),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: f64::from(REST_SPEED as f32),
         },
         drivetrain: Drivetrain::default(),

@@ -96,6 +96,7 @@ fn run(
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(RESTITUTION.into()),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         },
         drivetrain: Drivetrain::default(),

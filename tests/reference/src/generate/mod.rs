@@ -4,6 +4,7 @@
 
 mod device;
 mod motion;
+pub mod sliding;
 
 use std::fmt::Write;
 use std::path::Path;

@@ -71,6 +71,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
         device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
+        friction_coefficient: None,
         added_mass: AddedMass::NONE,
         rest_speed: REST_SPEED,
     }

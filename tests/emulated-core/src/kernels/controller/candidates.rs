@@ -162,6 +162,7 @@ impl Candidate {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             restitution_scatter: RestitutionScatter::NONE,
+            friction_coefficient: None,
             rest_speed: REST_SPEED,
         };
         let period = f64::from(PERIOD);
