@@ -7,7 +7,8 @@
 //!        motion wing                              controller wing
 //!                                            device
 //!   observers                                settings      link
-//!   motion (ideal, hybrid, sliding, rest)    control (sensing, estimation, law, monitor, supervisor)
+//!   motion (ideal, hybrid, sliding,          control (sensing, estimation, law, monitor, supervisor)
+//!           compliant, rest)
 //!   method
 //!   ground     drivetrain
 //!   ---------------------------- structure ----------------------------
@@ -23,7 +24,7 @@
 //! Motion wing:
 //! - [`ground`]: ground acceleration in smooth segments; [`drivetrain`]: transmissions from the rack to a flywheel;
 //! - [`method`]: integrators with dense output over one step;
-//! - [`motion`]: event-driven integration, of ideal devices, of devices with a memory, and of a block that slides;
+//! - [`motion`]: event-driven integration, of ideal devices, of devices with a memory, of a block that slides, and of one on a compliant base;
 //! - [`observers`]: peaks, energy ledger, checks of forces, digests;
 //!
 //! Controller wing:

@@ -15,7 +15,7 @@ enum Wing {
 use Wing::{Controller, Foundation, Motion};
 
 /// Rooms from the ground up: floor, wing, path. A room is all that its path begins, less the rooms inside it.
-const ROOMS: [(u8, Wing, &str); 23] = [
+const ROOMS: [(u8, Wing, &str); 24] = [
     (0, Foundation, "math"),
     (1, Foundation, "equation"),
     (2, Foundation, "structure"),
@@ -27,6 +27,7 @@ const ROOMS: [(u8, Wing, &str); 23] = [
     (7, Motion, "motion::ideal"),
     (7, Motion, "motion::hybrid"),
     (7, Motion, "motion::sliding"),
+    (7, Motion, "motion::compliant"),
     (8, Motion, "observers"),
     (3, Controller, "control::ticks"),
     (3, Controller, "control::model"),

@@ -168,7 +168,7 @@ mod tests {
     use crate::structure::block::{Block, Geometry};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
-    use crate::structure::{REST_SPEED, Restitution, RestitutionScatter};
+    use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter};
 
     fn structure(geometry: Geometry, mount: Mount, kinematics: KinematicsKind) -> Structure {
         Structure {
@@ -178,7 +178,7 @@ mod tests {
             added_mass: crate::structure::added_mass::AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         }
     }

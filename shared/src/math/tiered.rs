@@ -169,11 +169,11 @@ mod tests {
     use crate::method::taylor::Taylor;
     use crate::motion::state::{BlockState, Limits};
     use crate::observers::digest::Digest;
-    use crate::structure::RestitutionScatter;
     use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
+    use crate::structure::{Base, RestitutionScatter};
     use crate::structure::{REST_SPEED, Restitution, Structure};
 
     /// One cycle of sine and 2.5 s of quiet on a block of 10°, p = 1/s; gives the digest of every stretch and event, and θ.
@@ -186,7 +186,7 @@ mod tests {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         };
         let system = structure.resolve().unwrap();

@@ -23,12 +23,12 @@ use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::{Parameters, Phase, SafeState, Supervisor};
-use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use crate::structure::mount::Mount;
+use crate::structure::{Base, RestitutionScatter};
 use crate::structure::{REST_SPEED, Restitution, Structure};
 use std::collections::BTreeSet;
 use std::string::ToString;
@@ -49,7 +49,7 @@ fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

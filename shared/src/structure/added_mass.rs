@@ -81,10 +81,10 @@ mod tests {
     use crate::equation::any_equation::AnyEquation;
     use crate::equation::body::FullBody;
     use crate::motion::ideal::IdealSystem;
-    use crate::structure::RestitutionScatter;
     use crate::structure::block::GRAVITY;
     use crate::structure::device::{DeviceKind, KinematicsKind};
     use crate::structure::restitution::Restitution;
+    use crate::structure::{Base, RestitutionScatter};
     use crate::structure::{REST_SPEED, Structure};
     use std::string::String;
 
@@ -118,7 +118,7 @@ mod tests {
             added_mass,
             restitution: Restitution::MomentumBalance,
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         }
     }

@@ -4,6 +4,7 @@
 //! and `equation`.
 
 pub mod added_mass;
+pub mod base;
 pub mod block;
 pub mod device;
 pub mod drivetrain;
@@ -18,7 +19,7 @@ pub mod restitution_scatter;
 use added_mass::AddedMass;
 use block::{Block, Geometry};
 use device::Device;
-use error::{ParameterError, require};
+use error::ParameterError;
 
 use crate::equation::FullBlock;
 use crate::equation::any_body::AnyBody;
@@ -26,6 +27,7 @@ use crate::equation::body::{FullBody, SlenderBody};
 use crate::math;
 use crate::math::scalar::Real;
 
+pub use base::Base;
 pub use restitution::Restitution;
 pub use restitution_scatter::RestitutionScatter;
 
@@ -44,8 +46,8 @@ pub struct Structure {
     pub restitution: Restitution,
     /// How impacts differ; [`RestitutionScatter::NONE`] by default, and always in the loop of ideal devices.
     pub restitution_scatter: RestitutionScatter,
-    /// μ, coefficient of friction under the block; `None` where it cannot slide. Only [`crate::motion::sliding`] takes one.
-    pub friction_coefficient: Option<f64>,
+    /// What it stands on; [`Base::Rigid`] by default.
+    pub base: Base,
     /// θ̇/(pα) below which an impact may end in rest; 1e-12 to 1e-2, [`REST_SPEED`] by default. What remains after it is
     /// summed in closed form. Flywheels that coast then see weaker impacts: peaks differ by up to 7e-6 at the default, 0.4 % at 1e-3.
     pub rest_speed: f64,
@@ -95,16 +97,6 @@ impl Structure {
                 AnyBody::Full(FullBody { block, lever: mount.lever(&self.block)?.rounded(), consistent, vertical })
             }
         })
-    }
-
-    /// Refuses a coefficient of friction, for loops in which no base slides.
-    ///
-    /// # Errors
-    /// [`ParameterError`] where there is one.
-    pub fn cannot_slide(&self) -> Result<(), ParameterError> {
-        let friction = self.friction_coefficient;
-        let range = "absent where the base of the block cannot slide";
-        require("friction_coefficient", friction.unwrap_or_default(), friction.is_none(), range).map(|_| ())
     }
 
     /// η of its impacts, with what it carries.

@@ -13,12 +13,12 @@ use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::hybrid::series::Series;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::Drivetrain;
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::closed_loop::plant::Extremes;
@@ -101,7 +101,7 @@ fn structure(geometry: Geometry, kind: DeviceKind) -> Structure {
         added_mass: AddedMass::NONE,
         restitution,
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

@@ -7,12 +7,12 @@ pub use sprag_shared::method::taylor::TERMS;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, KinematicsKind};
 use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 use crate::model::Model;
@@ -47,7 +47,7 @@ impl PulsedBlock {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.plain.restitution),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         })
     }

@@ -1,9 +1,9 @@
 //! Blocks and devices that the lanes integrate.
 
-use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, Structure};
 
 /// A block with an ideal device, at rest at first, of which only the outcome is asked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl PlainBlock {
 
     /// The block of `structure`, if the lanes have its device.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
-        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient, .. } = structure;
+        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, base, .. } = structure;
         let k = device.mass_ratio / block.inertia_ratio();
         let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
             (_, DeviceKind::None, ..) => 0.0,
@@ -49,7 +49,7 @@ impl PlainBlock {
             _ => return None,
         };
         let restitution = restitution.evaluate(block, *geometry, device).ok()?;
-        let lanes_know = added_mass.is_none() && !restitution_scatter.is_on() && friction_coefficient.is_none();
+        let lanes_know = added_mass.is_none() && !restitution_scatter.is_on() && *base == Base::Rigid;
         lanes_know.then_some(PlainBlock {
             geometry: *geometry,
             device: device.kind,

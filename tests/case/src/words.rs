@@ -30,7 +30,7 @@ use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
-use sprag_shared::structure::{RestitutionScatter, Structure};
+use sprag_shared::structure::{Base, RestitutionScatter, Structure};
 
 /// "CASE", to be distinguished from other files.
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
@@ -47,9 +47,9 @@ impl<'a> Case<'a> {
         let mut out = Writer { words, count: 0 };
         out.word(MAGIC)?;
         out.word(VERSION)?;
-        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient: _, rest_speed } =
+        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, base, rest_speed } =
             &self.structure;
-        self.structure.cannot_slide()?;
+        base.is_rigid()?;
         out.numbers(&[block.size(), block.slenderness(), block.inertia_ratio()])?;
         out.word(*geometry as u32)?;
         out.word(device.kind as u32)?;
@@ -138,7 +138,8 @@ impl<'a> Case<'a> {
             return Err(CaseError::Trailing(input.0.len() as u32));
         }
         let device = Device { kind, mass_ratio, mount, kinematics };
-        let structure = Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient: None, rest_speed };
+        let structure =
+            Structure { block, geometry, device, added_mass, restitution, restitution_scatter, base: Base::Rigid, rest_speed };
         let initially = if released { Initially::Released { rotation, velocity } } else { Initially::Rest };
         Ok(Case { structure, drivetrain, initially, method, step, ground, free_time })
     }

@@ -16,6 +16,7 @@ pub mod device;
 pub mod effort;
 pub mod equation;
 pub mod event;
+pub mod foundation;
 pub mod generate;
 pub mod ground;
 pub mod guard;

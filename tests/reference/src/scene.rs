@@ -66,10 +66,19 @@ pub struct BlockTable {
     pub restitution_seed: u64,
     pub mass_kg: Option<f64>,
     pub friction_coefficient: Option<f64>,
+    pub foundation: Option<FoundationTable>,
     #[serde(default)]
     pub initial_rotation_ratio: f64,
     #[serde(default)]
     pub initial_velocity_ratio: f64,
+}
+
+/// `block.foundation`.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[allow(missing_docs)]
+pub struct FoundationTable {
+    pub vertical_frequency_hz: f64,
+    pub damping_ratio: f64,
 }
 
 /// `[[device]]`.

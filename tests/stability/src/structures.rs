@@ -1,10 +1,10 @@
 //! Blocks and devices.
 
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// Both equations of motion.
@@ -21,7 +21,7 @@ pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

@@ -3,11 +3,11 @@
 use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
 use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// A case, its name, and how it must end.
@@ -36,7 +36,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structur
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

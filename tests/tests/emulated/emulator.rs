@@ -10,11 +10,11 @@ use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
 
@@ -30,7 +30,7 @@ fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: 1e-6,
     }
 }

@@ -7,11 +7,11 @@ use sprag_loops::{Method, Precision};
 use sprag_shared::math;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
@@ -44,7 +44,7 @@ fn structure(geometry: Geometry, kind: DeviceKind, (size, slenderness, restituti
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(restitution),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

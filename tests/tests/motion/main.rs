@@ -20,6 +20,7 @@ mod paper_statements;
 mod record_hard_cases;
 mod reference;
 mod second_program;
+mod second_program_foundation;
 mod second_program_sliding;
 mod sine_exhaustive;
 mod symmetry;

@@ -8,12 +8,12 @@ use crate::control::estimation::estimate::Estimate;
 use crate::control::law::Situation;
 use crate::control::law::signs::Signs;
 use crate::math::sign::Sign;
-use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use crate::structure::mount::Mount;
+use crate::structure::{Base, RestitutionScatter};
 use crate::structure::{REST_SPEED, Restitution, Structure};
 
 /// R = 2 m, α = 10°, σ = 0.5.
@@ -30,7 +30,7 @@ pub fn structure() -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

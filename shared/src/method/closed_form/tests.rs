@@ -10,11 +10,11 @@ use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
 use crate::observers::peaks::Peaks;
-use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
+use crate::structure::{Base, RestitutionScatter};
 use crate::structure::{REST_SPEED, Restitution, Structure};
 use core::f64::consts::TAU;
 use std::vec::Vec;
@@ -95,7 +95,7 @@ fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

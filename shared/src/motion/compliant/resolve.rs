@@ -4,22 +4,25 @@ use super::CompliantSystem;
 use crate::equation::clutch_rule::ClutchRule;
 use crate::math;
 use crate::math::scalar::Real;
-use crate::structure::Structure;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::error::{ParameterError, require};
-use crate::structure::foundation::Foundation;
 use crate::structure::mount::Mount;
+use crate::structure::{Base, Structure};
 
 /// Longest step times the larger of ω_v and the decay of a foot's motion: some 60 steps a period.
 const LONGEST_STEP: f64 = 0.1;
 
 impl Structure {
-    /// The equations of the structure with its added mass on `foundation`, and the longest step (s) that follows its feet. Impacts have no part in them: the restitution is not looked at.
+    /// The equations of the structure with its added mass on its compliant base, and the longest step (s) that follows its feet. Impacts have no part in them: the restitution is not looked at.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range, or what a block on feet cannot be followed with.
-    pub fn resolve_compliant<S: Real>(&self, foundation: &Foundation) -> Result<(CompliantSystem<S>, f64), ParameterError> {
+    pub fn resolve_compliant<S: Real>(&self) -> Result<(CompliantSystem<S>, f64), ParameterError> {
+        let Base::Compliant(foundation) = self.base else {
+            let range = "there, with a damping ratio, for a block on a compliant base";
+            return Err(ParameterError { parameter: "vertical_frequency", value: 0.0, range });
+        };
         let (stiffness, damping) = foundation.feet()?;
         let loaded = self.loaded()?;
         let Structure { block, geometry, device, .. } = &loaded;

@@ -13,7 +13,7 @@ use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::foundation::Foundation;
 use crate::structure::mount::Mount;
-use crate::structure::{REST_SPEED, Restitution, RestitutionScatter, Structure};
+use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter, Structure};
 
 const ALPHA: f64 = 0.2;
 const LIMITS: Limits<f64> = Limits { overturned: core::f64::consts::FRAC_PI_2, events: 10_000_000 };
@@ -26,8 +26,13 @@ fn structure(device: Device) -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Geometric,
         restitution_scatter: RestitutionScatter::NONE,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
+}
+
+fn on_feet(structure: Structure, vertical_frequency: f64, damping_ratio: f64) -> Structure {
+    Structure { base: Base::Compliant(Foundation { vertical_frequency, damping_ratio }), ..structure }
 }
 
 fn device(kind: DeviceKind, kinematics: KinematicsKind) -> Device {
@@ -35,7 +40,7 @@ fn device(kind: DeviceKind, kinematics: KinematicsKind) -> Device {
 }
 
 fn system(device: Device, vertical_frequency: f64, damping_ratio: f64) -> (CompliantSystem<f64>, f64) {
-    structure(device).resolve_compliant(&Foundation { vertical_frequency, damping_ratio }).unwrap()
+    on_feet(structure(device), vertical_frequency, damping_ratio).resolve_compliant().unwrap()
 }
 
 /// Events, and time, θ, θ̇ at the ends of intervals with what the device does there.
@@ -256,7 +261,7 @@ fn the_pair_resists_and_never_drives() {
 #[test]
 fn what_cannot_be_is_refused_by_name() {
     let error = |structure: &Structure, vertical_frequency, damping_ratio| {
-        structure.resolve_compliant::<f64>(&Foundation { vertical_frequency, damping_ratio }).unwrap_err().parameter
+        on_feet(*structure, vertical_frequency, damping_ratio).resolve_compliant::<f64>().unwrap_err().parameter
     };
     let bare = structure(Device::NONE);
     assert_eq!(error(&bare, 0.0, 0.1), "vertical_frequency");
@@ -266,4 +271,6 @@ fn what_cannot_be_is_refused_by_name() {
     let mounted =
         Device { mount: Mount::BaseCorners { pulley_ratio: 1.0 }, ..device(DeviceKind::Inerter, KinematicsKind::Paper) };
     assert_eq!(error(&structure(mounted), 5.0, 0.1), "vertical_frequency");
+    assert_eq!(bare.resolve_compliant::<f64>().unwrap_err().parameter, "vertical_frequency");
+    assert_eq!(on_feet(bare, 5.0, 0.1).resolve::<f64>().unwrap_err().parameter, "vertical_frequency");
 }

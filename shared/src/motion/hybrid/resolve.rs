@@ -24,7 +24,7 @@ impl Drivetrain {
         require("mass_ratio", sigma, (0.0..=10_000.0).contains(&sigma), "from 0 to 10000")?;
         require("rest_speed", rest_speed, (1e-12..=1e-2).contains(&rest_speed), "from 1e-12 to 1e-2")?;
         structure.restitution_scatter.check()?;
-        structure.cannot_slide()?;
+        structure.base.is_rigid()?;
         let restitution = restitutions(&structure, sigma, self.rack.guided_mass_ratio / heavier)?;
         let consistent = self.has_memory(device.kind) || device.kinematics == KinematicsKind::Consistent;
         let (p2, f) = (block.frequency_parameter_squared(), self.support.amplification);

@@ -26,7 +26,7 @@ impl Structure {
         let speed = block.frequency_parameter() * block.slenderness();
         let scatter = self.restitution_scatter.deviation;
         require("restitution_scatter", scatter, scatter == 0.0, "0 in the loop of ideal devices")?;
-        self.cannot_slide()?;
+        self.base.is_rigid()?;
         let rest = require("rest_speed", *rest_speed, (1e-12..=1e-2).contains(rest_speed), "from 1e-12 to 1e-2")?;
         let restitution = restitution.evaluate(block, *geometry, device)?;
         let [released, engaged] = loaded.equations()?;

@@ -85,9 +85,9 @@ impl<I: FirstIntegral> FreeMotion<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::RestitutionScatter;
     use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
+    use crate::structure::{Base, RestitutionScatter};
 
     use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
     use crate::ground::Harmonics;
@@ -139,7 +139,7 @@ mod tests {
                     added_mass: AddedMass::NONE,
                     restitution: Restitution::Constant(0.93),
                     restitution_scatter: RestitutionScatter::NONE,
-                    friction_coefficient: None,
+                    base: Base::Rigid,
                     rest_speed: REST_SPEED,
                 };
                 let (followed, _) = followed(&structure, rotation, velocity);

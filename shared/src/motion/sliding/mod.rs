@@ -16,12 +16,12 @@ mod stretch;
 use balance::{Balance, Place};
 use stretch::{Guard, Stretch};
 
-use crate::ground::GroundSegment;
 use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::method::step_grid::next_stop;
+use crate::motion::ground_pair::GroundPair;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
@@ -105,23 +105,6 @@ impl<S: Real> SlidingState<S> {
     fn place(&self) -> Place<S> {
         let BlockState { rotation, velocity, .. } = self.motion;
         Place { rotation, velocity, displacement: self.displacement, slip: self.slip, spent: self.spent }
-    }
-}
-
-/// Horizontal and vertical ground motion over one ground segment.
-#[derive(Clone, Copy)]
-pub struct GroundPair<'a, S> {
-    /// Horizontal.
-    pub horizontal: &'a dyn GroundSegment<S>,
-    /// Vertical, if the ground moves so.
-    pub vertical: Option<&'a dyn GroundSegment<S>>,
-}
-
-impl<S: Real> GroundPair<'_, S> {
-    /// ü_g/g and the weight 1 + v̈_g/g at the local time `time` (s).
-    fn at(&self, time: S) -> [S; 2] {
-        let up = self.vertical.map_or(S::ZERO, |vertical| vertical.acceleration(time));
-        [self.horizontal.acceleration(time), S::ONE + up]
     }
 }
 

@@ -6,7 +6,7 @@ use crate::math::scalar::Real;
 use crate::structure::block::Geometry;
 use crate::structure::device::DeviceKind;
 use crate::structure::error::{ParameterError, require};
-use crate::structure::{COUNTED_SPEED, Structure};
+use crate::structure::{Base, COUNTED_SPEED, Structure};
 
 /// By which a restitution given in a few digits may exceed that of the block's momentum.
 const ROUNDING: f64 = 1e-9;
@@ -19,7 +19,7 @@ impl Structure {
     pub fn resolve_sliding<S: Real>(&self) -> Result<SlidingSystem<S>, ParameterError> {
         let loaded = self.loaded()?;
         let Structure { block, geometry, device, restitution, rest_speed, .. } = &loaded;
-        let friction = self.friction_coefficient.unwrap_or(f64::INFINITY);
+        let friction = if let Base::Friction(friction) = self.base { friction } else { f64::INFINITY };
         let fits = |fits: bool, range: &'static str| require("friction_coefficient", friction, fits, range);
         fits(friction > 0.0, "above 0")?;
         fits(*geometry == Geometry::Full, "absent for the slender block, whose toe has no reactions of its own")?;

@@ -87,6 +87,7 @@ fn block(scene: &Scene) -> Phrase {
     if scatter.is_on() {
         values.push(format!("scatter of η = {}", number(scatter.deviation)));
     }
+    values.extend(block.foundation.map(|foundation| format!("f_v = {} Hz", number(foundation.vertical_frequency_hz))));
     values.extend(block.friction_coefficient.map(|friction| format!("μ = {}", number(friction))));
     let start = [(block.initial_rotation_ratio, "θ(0)", "α"), (block.initial_velocity_ratio, "θ'(0)", "*p*α")];
     for (value, symbol, unit) in start.into_iter().filter(|start| start.0 != 0.0) {

@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 70] = [
+const QUANTITIES: [Quantity; 72] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -31,6 +31,8 @@ const QUANTITIES: [Quantity; 70] = [
     quantity("block.restitution", "coefficient of restitution", "η", ""),
     quantity("block.restitution_scatter", "standard deviation of η", "", ""),
     quantity("block.restitution_seed", "seed of the impacts", "", ""),
+    quantity("block.foundation.vertical_frequency_hz", "vertical frequency on the foundation", "f_v", "Hz"),
+    quantity("block.foundation.damping_ratio", "damping ratio of the foundation", "ζ", ""),
     quantity("block.friction_coefficient", "coefficient of friction under the block", "μ", ""),
     quantity("block.initial_rotation_ratio", "initial rotation", "θ(0)/α", ""),
     quantity("block.initial_velocity_ratio", "initial velocity", "θ'(0)/(*p*α)", ""),

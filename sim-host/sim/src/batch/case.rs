@@ -3,12 +3,12 @@
 use sprag_shared::ground::Harmonics;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::mount::Mount;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 pub use sprag_ensemble::alone::{CaseError, TIGHT};
@@ -98,7 +98,7 @@ impl Case {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(self.restitution),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: self.rest_speed,
         })
     }

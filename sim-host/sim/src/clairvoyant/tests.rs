@@ -2,13 +2,13 @@ use std::f64::consts::PI;
 
 use sprag_shared::ground::{AnySegment, GroundSegment, Harmonics};
 use sprag_shared::math;
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Structure};
 
 use super::rocker::Place;
@@ -30,7 +30,7 @@ fn rocker(geometry: Geometry, engagement: Engagement) -> Rocker {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     };
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0 };

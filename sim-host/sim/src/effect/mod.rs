@@ -35,12 +35,13 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 16] = [
+pub const EFFECTS: [&Effect; 17] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
     &block::SCATTER,
     &block::SLIDING,
+    &block::FOUNDATION,
     &device::MOUNT,
     &device::SUPPORT,
     &device::KINEMATICS,

@@ -135,6 +135,12 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
 
 /// Uplift, impact and rest.
 pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
+    if subject.scene.file.block.foundation.is_some() {
+        return vec![
+            "a foot lifts where its force ends, k c + c ċ = 0, and presses again when it has come down: no impact, no rest"
+                .to_owned(),
+        ];
+    }
     let drivetrain = &subject.device.drivetrain;
     let mut lines = vec![uplift(subject)];
     lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));

@@ -7,6 +7,7 @@ pub mod device;
 pub mod document;
 pub mod drivetrain;
 pub mod error;
+pub mod foundation;
 pub mod ground;
 pub mod map;
 pub mod motions;
@@ -24,7 +25,7 @@ use std::sync::Arc;
 use sprag_shared::structure::block::{Block, Geometry};
 use sprag_shared::structure::drivetrain::Engagement;
 use sprag_shared::structure::error::ParameterError;
-use sprag_shared::structure::{Restitution, RestitutionScatter, Structure};
+use sprag_shared::structure::{Base, Restitution, RestitutionScatter, Structure};
 
 pub use device::SceneDevice;
 pub use error::SceneError;
@@ -123,12 +124,17 @@ impl Scene {
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
             let structure = structure(&file, block, restitution, &device);
-            let structure =
-                Structure { restitution_scatter: RestitutionScatter::NONE, friction_coefficient: None, ..structure };
+            let structure = Structure { restitution_scatter: RestitutionScatter::NONE, base: Base::Rigid, ..structure };
             structure.resolve::<f64>().map_err(|error| refusal(&error, origin, index))?;
             devices.push(device);
         }
-        if let Some(friction) = file.block.friction_coefficient {
+        if file.block.foundation.is_some() {
+            foundation::check(&file, &devices, &key)?;
+            for (index, device) in devices.iter().enumerate() {
+                let gives = structure(&file, block, restitution, device).resolve_compliant::<f64>();
+                gives.map_err(|error| refusal(&error, origin, index))?;
+            }
+        } else if let Some(friction) = file.block.friction_coefficient {
             sliding::check(&file, &devices, friction, &key)?;
             for (index, device) in devices.iter().enumerate() {
                 let slides = structure(&file, block, restitution, device).resolve_sliding::<f64>();
@@ -211,7 +217,7 @@ impl Scene {
     /// scene says.
     pub fn is_ideal(&self, index: usize) -> bool {
         let block = &self.file.block;
-        let all_alike = !block.scatter().is_on() && block.friction_coefficient.is_none();
+        let all_alike = !block.scatter().is_on() && block.base() == Base::Rigid;
         self.devices[index].is_ideal() && self.file.vertical.is_empty() && all_alike
     }
 
@@ -255,7 +261,7 @@ fn structure(file: &SceneFile, block: Block, restitution: Restitution, device: &
         added_mass: device.added_mass,
         restitution,
         restitution_scatter: file.block.scatter(),
-        friction_coefficient: file.block.friction_coefficient,
+        base: file.block.base(),
         rest_speed: file.run.rest_speed_ratio,
     }
 }
@@ -265,6 +271,8 @@ fn refusal(error: &ParameterError, origin: &str, index: usize) -> SceneError {
     let key = match error.parameter {
         "rest_speed" => "run.rest_speed_ratio".to_owned(),
         "friction_coefficient" => "block.friction_coefficient".to_owned(),
+        "vertical_frequency" => "block.foundation.vertical_frequency_hz".to_owned(),
+        "damping_ratio" => "block.foundation.damping_ratio".to_owned(),
         "restitution" => "block.restitution".to_owned(),
         "height" | "carried height" => format!("device.{index}.mount_height_m"),
         rule if rule.ends_with(" restitution") => format!("block.restitution: the {rule} of device.{index}"),
@@ -282,7 +290,8 @@ fn first_beyond_ideal(file: &SceneFile, devices: &[SceneDevice]) -> Option<Strin
     let vertical = || (!file.vertical.is_empty()).then(|| "vertical".to_owned());
     let scatter = || file.block.scatter().is_on().then(|| "block.restitution_scatter".to_owned());
     let friction = || file.block.friction_coefficient.map(|_| "block.friction_coefficient".to_owned());
-    tables.into_iter().find_map(of_device).or_else(vertical).or_else(scatter).or_else(friction)
+    let foundation = || file.block.foundation.map(|_| "block.foundation".to_owned());
+    tables.into_iter().find_map(of_device).or_else(vertical).or_else(scatter).or_else(friction).or_else(foundation)
 }
 
 #[cfg(test)]

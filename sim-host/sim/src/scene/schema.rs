@@ -6,13 +6,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::{REST_SPEED, Restitution, RestitutionScatter};
+use sprag_shared::structure::{Base, REST_SPEED, Restitution, RestitutionScatter};
 
 pub use super::accuracy::{AccuracyTable, EventTreatment, MethodName, Precision};
 use super::checks::ChecksTable;
 use super::controller::ControllerTable;
 pub use super::device::{DeviceTable, Kind, KinematicsName, MountName};
 use super::error::{KeyPath, SceneError};
+use super::foundation::FoundationTable;
 use super::ground::GroundTable;
 use super::map::MapTable;
 use crate::keys::{Described, schema_of};
@@ -104,6 +105,8 @@ pub struct BlockTable {
     /// Coefficient of friction μ under a block without a device, static and kinetic: the base slides where it is exceeded; without it never.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 10.0))]
     pub friction_coefficient: Option<f64>,
+    /// Compliant base: a spring and a dashpot under each toe; rigid ground without it.
+    pub foundation: Option<FoundationTable>,
     /// Rotation at the start, θ/α.
     #[serde(default)]
     #[schemars(range(min = -10.0, max = 10.0))]
@@ -194,6 +197,15 @@ impl BlockTable {
         match self.restitution_scatter.unwrap_or(0.0) {
             0.0 => RestitutionScatter::NONE,
             deviation => RestitutionScatter { deviation, seed: self.restitution_seed.unwrap_or(0) },
+        }
+    }
+
+    /// What the block stands on.
+    pub fn base(&self) -> Base {
+        match (self.foundation, self.friction_coefficient) {
+            (Some(foundation), _) => Base::Compliant(foundation.into()),
+            (None, Some(friction)) => Base::Friction(friction),
+            (None, None) => Base::Rigid,
         }
     }
 }

@@ -4,6 +4,7 @@
 mod asked;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects hold clutches"))]
 pub mod coil_use;
+mod compliant;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
 #[cfg(all(test, feature = "effects"))]

@@ -5,18 +5,18 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::state::Stopped;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_shared::structure::drivetrain::Engagement;
 use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::{Base, Structure};
 
 use super::asked::Asked;
 use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
 use super::watchers::Watchers;
-use super::{ideal, machine, sliding};
+use super::{compliant, ideal, machine, sliding};
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
@@ -166,12 +166,11 @@ impl<'a> Task<'a> {
 
     /// Run of the device.
     pub fn run(&self) -> Result<DeviceRun, Failure> {
-        if self.scene.file.block.friction_coefficient.is_some() {
-            sliding::run(self)
-        } else if self.is_ideal() {
-            ideal::run(self)
-        } else {
-            machine::run(self)
+        match self.scene.file.block.base() {
+            Base::Friction(_) => sliding::run(self),
+            Base::Compliant(_) => compliant::run(self),
+            Base::Rigid if self.is_ideal() => ideal::run(self),
+            Base::Rigid => machine::run(self),
         }
     }
 

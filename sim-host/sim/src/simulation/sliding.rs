@@ -1,8 +1,9 @@
 //! Runs of a block whose base may slide, by the loop that knows how.
 
 use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::ground_pair::GroundPair;
 use sprag_shared::motion::observer::Observer;
-use sprag_shared::motion::sliding::{GroundPair, SlidingState, SlidingSystem};
+use sprag_shared::motion::sliding::{SlidingState, SlidingSystem};
 use sprag_shared::motion::state::{Phase, Stopped};
 
 use super::device_run::{DeviceRun, Found};

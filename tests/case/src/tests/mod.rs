@@ -12,7 +12,7 @@ use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack, Support};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
-use sprag_shared::structure::{REST_SPEED, RestitutionScatter};
+use sprag_shared::structure::{Base, REST_SPEED, RestitutionScatter};
 
 mod devices;
 
@@ -28,7 +28,7 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.875),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: f64::from(REST_SPEED as f32),
         },
         drivetrain: Drivetrain::default(),

@@ -33,7 +33,7 @@ use sprag_shared::{
     },
     observers::peaks::Peaks,
     structure::{
-        REST_SPEED, Restitution, RestitutionScatter, Structure,
+        Base, REST_SPEED, Restitution, RestitutionScatter, Structure,
         added_mass::AddedMass,
         block::{Block, Geometry, RECTANGLE_INERTIA_RATIO},
         device::{Device, DeviceKind},
@@ -96,7 +96,7 @@ fn run(
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(RESTITUTION.into()),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         },
         drivetrain: Drivetrain::default(),

@@ -3,6 +3,7 @@
 //! Every effect has its chance, alone and together; what Sprag refuses (`docs/effects.md`, Limits) is not asked for.
 
 mod device;
+pub mod foundation;
 mod motion;
 pub mod sliding;
 

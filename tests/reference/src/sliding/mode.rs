@@ -74,8 +74,7 @@ impl Mode {
 
 /// The mode in which the body goes on, of those that its position and speed leave: the one that contradicts itself least. `None` where all do.
 pub fn find(body: &Body, state: &State, corner: Option<f64>, slip: f64, field: [f64; 2]) -> Option<Mode> {
-    let corners: Vec<Option<f64>> =
-        if corner.is_some() { vec![corner] } else { vec![None, Some(1.0), Some(-1.0)] };
+    let corners: Vec<Option<f64>> = if corner.is_some() { vec![corner] } else { vec![None, Some(1.0), Some(-1.0)] };
     let ways: Vec<f64> = if slip == 0.0 { vec![0.0, 1.0, -1.0] } else { vec![slip.signum()] };
     let modes = corners.into_iter().flat_map(|corner| ways.iter().map(move |&slides| Mode { corner, slides }));
     let judged: Vec<(Mode, f64)> = modes.map(|mode| (mode, mode.margin(body, state, field, slip == 0.0))).collect();

@@ -124,7 +124,8 @@ impl Runner {
         let mut state = State { position: [0.0, 0.0, tilt], ..State::default() };
         let mut corner = (tilt != 0.0).then(|| tilt.signum());
         if let Some(corner) = corner {
-            let start = self.body.arm(corner * self.body.half_width, 0.0)[0] - self.body.arm(corner * self.body.half_width, tilt)[0];
+            let start =
+                self.body.arm(corner * self.body.half_width, 0.0)[0] - self.body.arm(corner * self.body.half_width, tilt)[0];
             state.position[0] = start;
             state.position[1] = -self.body.clearance(corner * self.body.half_width, &state);
         }

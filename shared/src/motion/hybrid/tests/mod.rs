@@ -23,13 +23,13 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
-use crate::structure::RestitutionScatter;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use crate::structure::mount::Mount;
 use crate::structure::restitution::Restitution;
+use crate::structure::{Base, RestitutionScatter};
 use crate::structure::{REST_SPEED, Structure};
 
 fn sine(amplitude: f64, frequency: f64) -> AnySegment<f64> {
@@ -71,7 +71,7 @@ pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64,
         device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         added_mass: AddedMass::NONE,
         rest_speed: REST_SPEED,
     }

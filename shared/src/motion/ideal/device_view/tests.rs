@@ -5,10 +5,10 @@ use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;
 use crate::motion::ideal::IdealSystem;
 use crate::motion::state::Limits;
-use crate::structure::RestitutionScatter;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
+use crate::structure::{Base, RestitutionScatter};
 use crate::structure::{REST_SPEED, Restitution, Structure};
 use std::vec::Vec;
 
@@ -89,7 +89,7 @@ pub(crate) fn structure(
         added_mass: crate::structure::added_mass::AddedMass::NONE,
         restitution: Restitution::Constant(0.85),
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: None,
+        base: Base::Rigid,
         rest_speed: REST_SPEED,
     }
 }

@@ -18,7 +18,7 @@ fn where_friction_is_enough_it_moves_as_a_block_that_cannot_slide() {
         let structure = block(alpha, friction);
         let (state, seen) = shake(&structure, &pieces, 1e-4);
         assert_eq!((state.displacement, seen.count(Event::Slip)), (0.0, 0), "{alpha} {:?}", seen.events);
-        let fixed = Structure { friction_coefficient: None, ..structure };
+        let fixed = Structure { base: Base::Rigid, ..structure };
         let system = fixed.resolve::<f64>().unwrap();
         let (mut other, mut known) = (BlockState::default(), Seen::default());
         for (piece, _, duration) in &pieces {
@@ -31,7 +31,8 @@ fn where_friction_is_enough_it_moves_as_a_block_that_cannot_slide() {
         assert!((seen.peaks.rotation - known.peaks.rotation).abs() < 1e-11 * alpha, "{alpha}");
         assert_eq!((state.motion.phase, state.motion.impacts), (other.phase, other.impacts));
         for event in [Event::Uplift, Event::Impact, Event::Turn, Event::Rest] {
-            let times = |seen: &Seen| -> Vec<f64> { seen.events.iter().filter(|(of, _)| *of == event).map(|(_, at)| *at).collect() };
+            let times =
+                |seen: &Seen| -> Vec<f64> { seen.events.iter().filter(|(of, _)| *of == event).map(|(_, at)| *at).collect() };
             let (own, others) = (times(&seen), times(&known));
             assert_eq!(own.len(), others.len(), "{alpha} {event:?}");
             assert!(own.iter().zip(&others).all(|(a, b)| (a - b).abs() < 1e-9), "{alpha} {event:?}: {own:?} {others:?}");
@@ -45,9 +46,9 @@ fn what_it_cannot_go_with_is_refused_by_name() {
     let base = block(0.2, 0.5);
     let inerter = Device { kind: DeviceKind::Inerter, mass_ratio: 0.5, ..Device::NONE };
     for wrong in [
-        Structure { friction_coefficient: Some(0.0), ..base },
-        Structure { friction_coefficient: None, ..base },
-        Structure { friction_coefficient: Some(4.0 / 3.0 + 1e-9), ..base },
+        Structure { base: Base::Friction(0.0), ..base },
+        Structure { base: Base::Rigid, ..base },
+        Structure { base: Base::Friction(4.0 / 3.0 + 1e-9), ..base },
         Structure { geometry: Geometry::Slender, ..base },
         Structure { device: inerter, ..base },
         Structure { restitution_scatter: RestitutionScatter { deviation: 0.1, seed: 1 }, ..base },
@@ -55,7 +56,7 @@ fn what_it_cannot_go_with_is_refused_by_name() {
         assert_eq!(error(wrong).parameter, "friction_coefficient", "{wrong:?}");
     }
     assert_eq!(error(Structure { restitution: Restitution::Constant(0.99), ..base }).parameter, "restitution");
-    assert!(Structure { friction_coefficient: Some(4.0 / 3.0 - 1e-9), ..base }.resolve_sliding::<f64>().is_ok());
+    assert!(Structure { base: Base::Friction(4.0 / 3.0 - 1e-9), ..base }.resolve_sliding::<f64>().is_ok());
     assert_eq!(base.resolve::<f64>().unwrap_err().parameter, "friction_coefficient");
     let drivetrain = crate::structure::drivetrain::Drivetrain::default();
     assert_eq!(drivetrain.resolve::<f64>(&base, true).unwrap_err().parameter, "friction_coefficient");

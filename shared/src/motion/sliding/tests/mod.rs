@@ -16,7 +16,7 @@ use crate::observers::peaks::Peaks;
 use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::Device;
-use crate::structure::{REST_SPEED, Restitution, RestitutionScatter, Structure};
+use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter, Structure};
 
 /// A block of 1 m whose slenderness is `alpha` (rad).
 fn block(alpha: f64, friction: f64) -> Structure {
@@ -27,7 +27,7 @@ fn block(alpha: f64, friction: f64) -> Structure {
         added_mass: AddedMass::NONE,
         restitution: Restitution::Geometric,
         restitution_scatter: RestitutionScatter::NONE,
-        friction_coefficient: Some(friction),
+        base: Base::Friction(friction),
         rest_speed: REST_SPEED,
     }
 }

@@ -20,12 +20,12 @@ use sprag_shared::control::monitor::{EncoderLimits, MonitorParameters, SensorLim
 use sprag_shared::control::sensing::calibration::Plausible;
 use sprag_shared::control::sensing::instruments::Instruments;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
-use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use sprag_shared::structure::error::ParameterError;
+use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 /// One of them.
@@ -162,7 +162,7 @@ impl Candidate {
             added_mass: AddedMass::NONE,
             restitution: Restitution::Constant(0.85),
             restitution_scatter: RestitutionScatter::NONE,
-            friction_coefficient: None,
+            base: Base::Rigid,
             rest_speed: REST_SPEED,
         };
         let period = f64::from(PERIOD);
