@@ -35,7 +35,7 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 15] = [
+pub const EFFECTS: [&Effect; 16] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
@@ -47,6 +47,7 @@ pub const EFFECTS: [&Effect; 15] = [
     &device::RACK,
     &coupling::ENGAGEMENT,
     &coupling::CLUTCH,
+    &coupling::SLIP,
     &coupling::ACTUATION,
     &coupling::FLYWHEEL,
     &output::CHECKS,
