@@ -95,6 +95,13 @@ const ROWS: &[Row] = &[
         base: "clutched pair",
         kernel: "machine-elastic-exponential",
     },
+    Row { name: "slip", set: &["PAIR,inertance_corner_hz=4.0}"], base: "clutched pair", kernel: "machine-viscous-slip" },
+    Row {
+        name: "rack, load friction",
+        set: &["PAIR,engagement=\"rigid\",rack={load_friction=0.05}}"],
+        base: "flywheel",
+        kernel: "machine-load-friction",
+    },
     Row {
         name: "rack",
         set: &["PAIR,rack={dry_friction_ratio=0.01,viscous_1_s=0.05}}"],

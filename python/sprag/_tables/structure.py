@@ -168,6 +168,9 @@ class Rack(Table):
         Dry friction over the block's weight; or give dry_friction_n; from 0 to 10.
     dry_friction_n
         Dry friction; or give dry_friction_ratio; from 0.
+    load_friction
+        Friction of rack and pinion over the force of a locked flywheel in their mesh; of an inerter, an ideal
+        or a rigid clutch; from 0 and below 1.
 
     Raises
     ------
@@ -181,6 +184,7 @@ class Rack(Table):
     viscous_n_s_m: float | None = None
     dry_friction_ratio: float | None = None
     dry_friction_n: float | None = None
+    load_friction: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -317,6 +321,9 @@ class Inerter(Table):
         Friction that the rack meets, whatever the clutch does.
     actuation
         Delays between a command and a clutch that has obeyed it.
+    inertance_corner_hz
+        Corner f_c of an inertance that falls as 1/√(1 + (f/f_c)²), by viscous slip; in the place of
+        engagement and clutch; above 0, to 1000.
     weight
         Gravitational mass of the device, and what it rides on.
     support_amplification
@@ -345,6 +352,7 @@ class Inerter(Table):
     clutch: Clutch | None = None
     rack: Rack | None = None
     actuation: Actuation | None = None
+    inertance_corner_hz: float | None = None
     weight: Weight | None = None
     support_amplification: float | None = None
 
@@ -384,6 +392,9 @@ class ClutchedPair(Table):
         Friction that the rack meets, whatever the clutch does.
     actuation
         Delays between a command and a clutch that has obeyed it.
+    inertance_corner_hz
+        Corner f_c of an inertance that falls as 1/√(1 + (f/f_c)²), by viscous slip; in the place of
+        engagement and clutch; above 0, to 1000.
     weight
         Gravitational mass of the device, and what it rides on.
     support_amplification
@@ -412,6 +423,7 @@ class ClutchedPair(Table):
     clutch: Clutch | None = None
     rack: Rack | None = None
     actuation: Actuation | None = None
+    inertance_corner_hz: float | None = None
     weight: Weight | None = None
     support_amplification: float | None = None
 

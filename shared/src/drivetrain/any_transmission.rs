@@ -3,7 +3,7 @@
 //! Only the steps of a method, which evaluate the device many times, are compiled for each kind
 //! ([`crate::motion::hybrid::mode_output::ModeStart::known`]); the event loop is compiled once.
 
-use super::clutch_state::{DeviceState, Guard, ModeCoefficients, UNKNOWNS};
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, UNKNOWNS};
 use super::scaled_parameters::ScaledParameters;
 use super::transmission::{Account, AnyPoint, EvaluationPoint, EventContext, Transmission, first};
 use crate::math::scalar::Real;
@@ -39,6 +39,16 @@ pub enum TransmissionKind {
     Friction,
     /// Elastic clutches.
     Elastic,
+    /// One inerter, with friction that grows with load.
+    LoadedSingle,
+    /// The ideal clutched pair, likewise.
+    LoadedIdeal,
+    /// Rigid clutches, likewise.
+    LoadedRigid,
+    /// One inerter with viscous slip between rack and flywheel.
+    ViscousSingle,
+    /// Clutches with viscous slip.
+    Viscous,
 }
 
 /// Traits of a kind for the event loop ([`Transmission`]).
@@ -63,7 +73,9 @@ pub struct Traits {
 /// `$then` for the transmission of `$kind` in its own type.
 macro_rules! each_transmission {
     ($kind:expr, $transmission:ident => $then:expr) => {{
-        use crate::drivetrain::{any_transmission::TransmissionKind, elastic, friction, ideal, overrunning, rigid};
+        use crate::drivetrain::{
+            any_transmission::TransmissionKind, elastic, friction, ideal, load_friction, overrunning, rigid, viscous,
+        };
         macro_rules! known {
             ($known:expr) => {{
                 let $transmission = &$known;
@@ -80,6 +92,11 @@ macro_rules! each_transmission {
             TransmissionKind::Overrunning => known!(overrunning::OverrunningPair),
             TransmissionKind::Friction => known!(friction::FrictionPair),
             TransmissionKind::Elastic => known!(elastic::ElasticPair),
+            TransmissionKind::LoadedSingle => known!(load_friction::Loaded(ideal::Single::<true>)),
+            TransmissionKind::LoadedIdeal => known!(load_friction::Loaded(ideal::IdealPair::<true>)),
+            TransmissionKind::LoadedRigid => known!(load_friction::Loaded(rigid::RigidPair)),
+            TransmissionKind::ViscousSingle => known!(viscous::ViscousPair::<true>),
+            TransmissionKind::Viscous => known!(viscous::ViscousPair::<false>),
         }
     }};
 }
@@ -106,6 +123,16 @@ impl<S: Real> AnyTransmission<S> {
             }
         }
         each_transmission!(self.kind, transmission => of::<S, _, _, _>(transmission))
+    }
+
+    /// Engaged flywheels slip viscously.
+    pub fn slips_viscously(&self) -> bool {
+        matches!(self.kind, TransmissionKind::ViscousSingle | TransmissionKind::Viscous)
+    }
+
+    /// How the flywheel of a device without a clutch hangs on the rack.
+    pub fn permanent_link(&self) -> Coupling {
+        if self.slips_viscously() { Coupling::Viscous } else { Coupling::Locked }
     }
 
     /// [`Transmission::law`].

@@ -14,6 +14,8 @@ pub enum Coupling {
     Locked,
     /// Friction of slipping plates: force on the flywheel with this sign.
     Slipping(Sign),
+    /// Viscous slip: force by the difference of the speeds.
+    Viscous,
     /// Engaged within the gear play: no force.
     InPlay,
     /// Spring and damper in contact on this side of the play.
@@ -28,14 +30,19 @@ impl Coupling {
     pub fn is_engaged(self) -> bool {
         match self {
             Coupling::Open => false,
-            Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
+            Coupling::Locked
+            | Coupling::Slipping(_)
+            | Coupling::Viscous
+            | Coupling::InPlay
+            | Coupling::Elastic(_)
+            | Coupling::Saturated(_) => true,
         }
     }
 
     /// Engaged elastic clutch, whose twist is a state: within its play, in contact or saturated.
     pub fn has_twist(self) -> bool {
         match self {
-            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) => false,
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) | Coupling::Viscous => false,
             Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => true,
         }
     }
@@ -44,7 +51,7 @@ impl Coupling {
     pub fn slip_sign(self) -> Option<Sign> {
         match self {
             Coupling::Slipping(sign) | Coupling::Saturated(sign) => Some(sign),
-            Coupling::Open | Coupling::Locked | Coupling::InPlay | Coupling::Elastic(_) => None,
+            Coupling::Open | Coupling::Locked | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) => None,
         }
     }
 
@@ -52,7 +59,7 @@ impl Coupling {
     pub fn contact_side(self) -> Option<Sign> {
         match self {
             Coupling::Elastic(side) | Coupling::Saturated(side) => Some(side),
-            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay => None,
+            Coupling::Open | Coupling::Locked | Coupling::Slipping(_) | Coupling::Viscous | Coupling::InPlay => None,
         }
     }
 }
@@ -91,6 +98,8 @@ pub struct DeviceState<S> {
     pub engagements: u32,
     /// Engagements missed so far.
     pub missed: u32,
+    /// What is locked drives the rack: its force is against the motion. Friction that grows with load asks for it.
+    pub drives: bool,
 }
 
 impl<S: Real> DeviceState<S> {
@@ -166,7 +175,7 @@ pub struct ModeCoefficients<S> {
     pub slip_growth: [S; 2],
     /// Stiffness of a clutch in contact, 1/s².
     pub stiffness: [S; 2],
-    /// Damping of a clutch in contact, 1/s.
+    /// Damping of a clutch in contact, or of viscous slip, 1/s.
     pub damping: [S; 2],
     /// Twist at which a clutch in contact is without force.
     pub rest_twist: [S; 2],
@@ -188,7 +197,7 @@ pub enum Guard<S> {
     Command(S),
     /// sign · (speed of the flywheel − speed of the rack): it runs ahead.
     Ahead(S, usize),
-    /// sign · (force on a locked flywheel): what an overrunning clutch holds.
+    /// sign · (force on a locked flywheel): what an overrunning clutch holds, or who drives whom.
     Held(S),
     /// capacity² − (force on a locked flywheel)², with the capacity and its growth.
     Capacity(S, S),
@@ -198,7 +207,7 @@ pub enum Guard<S> {
     Play(S, usize),
     /// sign · (twist − contact): in contact.
     Contact(S, usize),
-    /// bound² − force² of a clutch in contact, with the bound and its growth.
+    /// bound² − force² of a clutch in contact or of viscous slip, with the bound and its growth.
     Below(S, S, usize),
     /// friction² − θ̈² of a tilted block that friction holds, with the θ̈ that it would have without.
     Stuck(S),

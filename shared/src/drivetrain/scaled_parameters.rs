@@ -26,6 +26,8 @@ pub struct ScaledParameters<S> {
     pub rack_viscous: S,
     /// Dry friction of the rack, 1/s².
     pub rack_dry: S,
+    /// Friction of rack and pinion over the force in the mesh.
+    pub load_friction: S,
     /// Viscous rate of a flywheel, 1/s.
     pub bearing_rate: S,
     /// Dry deceleration of a flywheel, 1/s².
@@ -44,7 +46,7 @@ pub struct ScaledParameters<S> {
     pub time_constant: S,
     /// Stiffness of the clutch, 1/s².
     pub stiffness: S,
-    /// Damping, 1/s.
+    /// Damping of an elastic clutch or of viscous slip, 1/s.
     pub damping: S,
     /// Half the play over R.
     pub half_play: S,
@@ -67,10 +69,11 @@ impl<S: Real> ScaledParameters<S> {
         let (mut capacity, mut stiffness, mut damping, mut half_play) = (f64::INFINITY, 0.0, 0.0, 0.0);
         match *engagement {
             Engagement::Friction { capacity_ratio } => capacity = capacity_ratio * p2 / heavier,
-            Engagement::Elastic { stiffness: k, damping: c, backlash, capacity_ratio } => {
-                (stiffness, damping, half_play) = (k / (lambda * heavier), c / (lambda * heavier), 0.5 * backlash / size);
+            Engagement::Elastic { stiffness: spring, damping: c, backlash, capacity_ratio } => {
+                (stiffness, damping, half_play) = (spring / (lambda * heavier), c / (lambda * heavier), 0.5 * backlash / size);
                 capacity = capacity_ratio * p2 / heavier;
             }
+            Engagement::Viscous { corner_frequency } => damping = k * core::f64::consts::TAU * corner_frequency,
             Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => {}
         }
         let time_constant = S::of(actuation.time_constant);
@@ -84,6 +87,7 @@ impl<S: Real> ScaledParameters<S> {
             support_push: S::ZERO,
             rack_viscous: S::of(rack.viscous / (lambda * heavier)),
             rack_dry: S::of(rack.dry_ratio * p2 / heavier),
+            load_friction: S::of(rack.load_friction),
             bearing_rate: S::of(flywheel.viscous_rate),
             bearing_dry: S::of(flywheel.dry_deceleration / size),
             brake: S::of(if stops_at_once { 0.0 } else { flywheel.brake_deceleration / size }),
@@ -193,6 +197,11 @@ impl<S: Real> ScaledParameters<S> {
         (high < time).then_some(high)
     }
 
+    /// Viscous rate of a flywheel while the rack stands, 1/s: its bearings, and the slip of an engaged one.
+    pub fn slowing_rate(&self, wheel: &FlywheelState<S>) -> S {
+        if wheel.coupling == Coupling::Viscous { self.bearing_rate + self.damping * self.mobility } else { self.bearing_rate }
+    }
+
     /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past
     /// zero.
     #[inline(never)]
@@ -205,7 +214,7 @@ impl<S: Real> ScaledParameters<S> {
         // A rising capacity counts with its mean.
         let halfway = FlywheelState { engaged_for: wheel.engaged_for + S::HALF * time, ..*wheel };
         let plates = if slips { self.capacity_of(&halfway).0 * self.mobility } else { S::ZERO };
-        let (c, d) = (self.bearing_rate, self.dry_of(wheel) + plates);
+        let (c, d) = (self.slowing_rate(wheel), self.dry_of(wheel) + plates);
         let speed = wheel.spin.abs();
         let x = c * time;
         // (1 − e^−x)/x, where the difference would lose its digits.

@@ -15,6 +15,8 @@ pub struct Rack {
     pub viscous: f64,
     /// Dry friction over the block's weight; 0 to 10.
     pub dry_ratio: f64,
+    /// Friction of rack and pinion over the force of a locked flywheel in their mesh; 0 to below 1.
+    pub load_friction: f64,
 }
 
 /// The wall or frame that carries the device.
@@ -68,6 +70,12 @@ pub enum Engagement {
         backlash: f64,
         /// Largest force at the rack over the block's weight; above 0, or infinite.
         capacity_ratio: f64,
+    },
+    /// Viscous slip between rack and flywheel, of a clutch that obeys Eq. 10 or of a single inerter: its inertance falls with frequency, as
+    /// 1/√(1 + (f/f_c)²).
+    Viscous {
+        /// Corner f_c: the dashpot over 2π times the inertance, Hz; above 0, to 1000.
+        corner_frequency: f64,
     },
 }
 
@@ -127,6 +135,11 @@ impl Drivetrain {
         within("guided_mass_ratio", rack.guided_mass_ratio, 10.0, "from 0 to 10")?;
         within("rack viscous", rack.viscous, 1e3, "from 0 to 1000 1/s")?;
         within("rack dry_ratio", rack.dry_ratio, 10.0, "from 0 to 10")?;
+        let load = rack.load_friction;
+        // From 1 on no flywheel could drive the rack, and its force might have either sign.
+        require("load_friction", load, (0.0..1.0).contains(&load), "from 0 to below 1")?;
+        let locks = matches!(self.engagement, Engagement::Ideal | Engagement::Rigid);
+        require("load_friction", load, load == 0.0 || locks, "0 with a clutch that is neither ideal nor rigid")?;
         within("viscous_rate", flywheel.viscous_rate, 1e6, "from 0 to 1e6 1/s")?;
         within("dry_deceleration", flywheel.dry_deceleration, 1e6, "from 0 to 1e6 m/s²")?;
         if flywheel.brake_deceleration != f64::INFINITY {
@@ -143,7 +156,8 @@ impl Drivetrain {
             let asks = self.engagement != Engagement::Ideal
                 || *flywheel != FlywheelLosses::default()
                 || rack.viscous != 0.0
-                || rack.dry_ratio != 0.0;
+                || rack.dry_ratio != 0.0
+                || rack.load_friction != 0.0;
             require("support_amplification", amplification, !asks, "1 with friction or a flywheel that keeps its speed")?;
         }
         let capacity = |ratio: f64| require("capacity_ratio", ratio, ratio > 0.0 && ratio <= 1e6, "above 0, to 1e6").map(|_| ());
@@ -157,7 +171,10 @@ impl Drivetrain {
                     capacity(capacity_ratio)?;
                 }
             }
-            _ => {}
+            Engagement::Viscous { corner_frequency: corner } => {
+                require("corner_frequency", corner, corner > 0.0 && corner <= 1e3, "above 0, to 1000 Hz")?;
+            }
+            Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => {}
         }
         for (name, value) in [
             ("engagement_delay", actuation.engagement_delay),

@@ -14,6 +14,7 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
         Engagement::Elastic { stiffness, damping, backlash, capacity_ratio } => {
             (4, [stiffness, damping, backlash, capacity_ratio])
         }
+        Engagement::Viscous { corner_frequency } => (5, [0.0, corner_frequency, 0.0, 0.0]),
     };
     out.word(kind)?;
     out.numbers(&numbers)?;
@@ -25,11 +26,11 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
     out.word(miss_seed as u32)?;
     out.word((miss_seed >> 32) as u32)?;
     out.word(u32::from(delay == Delay::Transport))?;
-    out.numbers(&[support.amplification, time_constant])
+    out.numbers(&[support.amplification, time_constant, rack.load_friction])
 }
 
 pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
-    let kind = input.kind("engagement", &[0, 1, 2, 3, 4])?;
+    let kind = input.kind("engagement", &[0, 1, 2, 3, 4, 5])?;
     let (stiffness, damping) = (input.number("stiffness")?, input.number("damping")?);
     let (backlash, capacity_ratio) = (input.number("backlash")?, input.number("capacity_ratio")?);
     let engagement = match kind {
@@ -37,6 +38,7 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         1 => Engagement::Rigid,
         2 => Engagement::Overrunning,
         3 => Engagement::Friction { capacity_ratio },
+        5 => Engagement::Viscous { corner_frequency: damping },
         _ => Engagement::Elastic { stiffness, damping, backlash, capacity_ratio },
     };
     let flywheel = FlywheelLosses {
@@ -48,6 +50,7 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         guided_mass_ratio: input.number("guided_mass_ratio")?,
         viscous: input.number("rack viscous")?,
         dry_ratio: input.number("rack dry_ratio")?,
+        load_friction: 0.0,
     };
     let actuation = Actuation {
         engagement_delay: input.number("engagement_delay")?,
@@ -62,5 +65,6 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
     let delay = input.kind("delay", &[Delay::Inertial, Delay::Transport])?;
     let support = Support { amplification: input.number("support_amplification")? };
     let time_constant = input.number("time_constant")?;
+    let rack = Rack { load_friction: input.number("load_friction")?, ..rack };
     Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, time_constant, ..actuation }, support })
 }

@@ -106,6 +106,7 @@ fn fastest(scene: &Scene) -> f64 {
             Engagement::Elastic { stiffness, damping, .. } => {
                 (stiffness * (1.0 + 1.0 / sigma)).sqrt() + damping * (1.0 + 1.0 / sigma)
             }
+            Engagement::Viscous { corner_frequency } => core::f64::consts::TAU * corner_frequency * (1.0 + sigma),
             _ => 0.0,
         };
         // A clutch that answers late may switch as often as it can.

@@ -73,6 +73,7 @@ impl Model {
                 state.values[TWIST + i] = 0.0;
                 state.wheels[i].link = if half_play > 0.0 { Link::Play } else { Link::Contact(1.0) };
             }
+            Coupling::Slip { .. } => state.wheels[i].link = Link::Dragged,
             _ => self.jolt(state, i),
         }
     }
@@ -85,7 +86,11 @@ impl Model {
         let square = pose.lever * pose.lever;
         let inertia = self.block.inertia + (self.device.guided + locked * self.device.inertance) * square;
         let momentum = inertia * state.velocity() + self.device.inertance * pose.lever * state.spin(i) / self.block.size;
-        let velocity = momentum / (inertia + self.device.inertance * square);
+        let mut velocity = momentum / (inertia + self.device.inertance * square);
+        if self.device.mesh > 0.0 {
+            velocity = self.rack_after_impulses(pose.lever * self.block.size * state.velocity(), state.spin(i), locked, square)
+                / (pose.lever * self.block.size);
+        }
         state.values[VELOCITY] = velocity;
         state.wheels[i].link = Link::Locked;
         if let (BlockMode::Rocking { side, .. }, true) = (state.block, velocity != 0.0) {
@@ -95,6 +100,32 @@ impl Model {
         }
         self.follow_rack(state);
         state.values[CLUTCH] += before - energy(self, state);
+    }
+
+    /// ẋ once a flywheel of speed `spin` has the speed of the rack, with the friction of the mesh: impulse by impulse, each until the speeds are
+    /// equal or the rack stops and its friction turns. `square` is ℓ².
+    fn rack_after_impulses(&self, rack: f64, spin: f64, locked: f64, square: f64) -> f64 {
+        let (mut rack, mut spin) = (rack, spin);
+        for _ in 0..3 {
+            let relative = rack - spin;
+            if relative == 0.0 {
+                break;
+            }
+            let way = if rack != 0.0 { rack.signum() } else { spin.signum() };
+            // The flywheel that joins loads the rack along its way or against it, and those that move with the rack do the opposite.
+            let load = self.device.mesh * way * relative.signum();
+            let mass = self.block.inertia / square + self.device.guided + locked * self.device.inertance * (1.0 - load);
+            let (slows, speeds) = ((1.0 + load) / mass, 1.0 / self.device.inertance);
+            let equal = relative.abs() / (slows + speeds);
+            let stop = if rack * relative > 0.0 { rack.abs() / slows } else { f64::INFINITY };
+            let impulse = relative.signum() * equal.min(stop);
+            spin += impulse * speeds;
+            rack = if stop < equal { 0.0 } else { rack - impulse * slows };
+            if stop >= equal {
+                break;
+            }
+        }
+        rack
     }
 
     fn release(&self, state: &mut State, i: usize) {

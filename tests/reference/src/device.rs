@@ -27,6 +27,13 @@ pub enum Coupling {
         /// Half the backlash, m.
         half_play: f64,
     },
+    /// Viscous slip.
+    Slip {
+        /// Force over the difference of the speeds, 1/s.
+        damping: f64,
+        /// Of one flywheel that is always engaged.
+        permanent: bool,
+    },
 }
 
 /// A device.
@@ -48,6 +55,8 @@ pub struct Device {
     pub rack_viscous: f64,
     /// Dry friction of the rack, m/s².
     pub rack_dry: f64,
+    /// Friction of the mesh over the force of a locked flywheel.
+    pub mesh: f64,
     /// Viscous rate of a flywheel, 1/s.
     pub bearing_viscous: f64,
     /// Dry deceleration of a flywheel, m/s².
@@ -75,7 +84,10 @@ pub struct Device {
 impl Device {
     /// Clutches that obey Eq. 10.
     pub fn is_commanded(&self) -> bool {
-        !matches!(self.coupling, Coupling::None | Coupling::Inerter | Coupling::Overrunning)
+        !matches!(
+            self.coupling,
+            Coupling::None | Coupling::Inerter | Coupling::Overrunning | Coupling::Slip { permanent: true, .. }
+        )
     }
 
     /// Start and end of the line by which a capacity rises so long after engagement, each with its share.
@@ -133,6 +145,10 @@ impl Device {
         let stiffness = either(clutch.stiffness_ratio.map(|ratio| ratio * p * p), clutch.stiffness_n_m, 1.0)?;
         let coupling = match (table.kind.as_str(), &table.clutch, table.engagement.as_deref(), stiffness) {
             ("none", ..) => Coupling::None,
+            (kind, None, None, _) if table.inertance_corner_hz.is_some() => {
+                let rate = 2.0 * std::f64::consts::PI * table.inertance_corner_hz.unwrap_or(0.0);
+                Coupling::Slip { damping: per * inertance * rate, permanent: kind == "inerter" }
+            }
             ("inerter", ..) => Coupling::Inerter,
             ("clutched-pair", None, None | Some("ideal"), _) => Coupling::Ideal,
             ("clutched-pair", None, Some("rigid"), _) => Coupling::Rigid,
@@ -149,7 +165,7 @@ impl Device {
             }
             other => return Err(format!("device {other:?}")),
         };
-        let remembers = matches!(coupling, Coupling::Rigid | Coupling::Overrunning | Coupling::Plates | Coupling::Elastic { .. });
+        let remembers = !matches!(coupling, Coupling::None | Coupling::Inerter | Coupling::Ideal);
         let consistent = if remembers || table.kinematics.as_deref() == Some("consistent") { 1.0 } else { 0.0 };
         let capacity = either(clutch.capacity_ratio, clutch.capacity_n, GRAVITY)?.map_or(f64::INFINITY, |ratio| ratio * GRAVITY);
         let brake = match &table.flywheel.brake_deceleration_m_s2 {
@@ -179,6 +195,7 @@ impl Device {
             },
             rack_viscous: per * viscous,
             rack_dry: per * dry * GRAVITY,
+            mesh: table.rack.load_friction,
             bearing_viscous: table.flywheel.viscous_rate_1_s,
             bearing_dry: table.flywheel.dry_deceleration_m_s2,
             brake,

@@ -36,6 +36,10 @@ impl Effort {
         let mut rate = 5.0 * block.frequency_parameter();
         rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()));
         rate = rate.max(device.rack_viscous).max(2.0 * device.bearing_viscous);
+        if let Coupling::Slip { damping, .. } = device.coupling {
+            let (lever, _) = device.lever.at(1.0, 0.0);
+            rate = rate.max(damping * (1.0 / device.inertance + lever * lever / block.inertia));
+        }
         if let Coupling::Elastic { stiffness, damping, .. } = device.coupling {
             let (lever, _) = device.lever.at(1.0, 0.0);
             let inverse_mass = 1.0 / device.inertance + lever * lever / block.inertia;

@@ -4,6 +4,9 @@
 //!
 //! with n locked flywheels and F the friction of the rack, the bearings of locked flywheels and the forces of all other links. A flywheel
 //! on a support that accelerates by ẍ_s against the ground, as travel of the rack, turns with ẍ − ẍ_s: locked, it pulls σ(ẍ − ẍ_s).
+//! In the mesh of rack and pinion the rack also spends μ|F| on each locked flywheel: its force F counts (1 + μ) times where it is along
+//! the motion, else (1 − μ) times, and of these two the one that gives F its own sign is true.
+//!
 //! Flywheels that are not locked: ẇ = F/σ − c w − D sgn w, D = d, and d + b while open.
 
 use crate::block::{Block, GRAVITY, Restitution};
@@ -126,6 +129,7 @@ impl Model {
             (Link::Contact(side), Coupling::Elastic { stiffness, damping, half_play }) => {
                 stiffness * (twist - side * half_play) + damping * relative
             }
+            (Link::Dragged, Coupling::Slip { damping, .. }) => damping * relative,
             _ => 0.0,
         }
     }
@@ -156,6 +160,23 @@ impl Model {
 
     /// θ̈ of a block on its way in `direction`, with `locked` flywheels on the rack and `force` (m/s²) from the other links.
     pub fn acceleration(&self, pose: &Pose, velocity: f64, shaking: Shaking, direction: f64, locked: f64, force: f64) -> f64 {
+        let with = |share: f64| self.acceleration_with(pose, velocity, (shaking, direction), locked * (1.0 + share), force);
+        let driven = with(self.device.mesh);
+        if self.device.mesh == 0.0 || direction * self.locked_force(pose, velocity, driven, direction) >= 0.0 {
+            return driven;
+        }
+        with(-self.device.mesh)
+    }
+
+    /// θ̈ where the force of so many locked flywheels counts.
+    fn acceleration_with(
+        &self,
+        pose: &Pose,
+        velocity: f64,
+        (shaking, direction): (Shaking, f64),
+        locked: f64,
+        force: f64,
+    ) -> f64 {
         let device = &self.device;
         let rack = self.rack_speed(pose, velocity);
         let bearings = locked * device.inertance * (device.bearing_viscous * rack + device.bearing_dry * direction);
@@ -209,6 +230,10 @@ impl Model {
             let ground = shaking.horizontal * (pose.cos + device.guided * pose.lever) + shaking.vertical * pose.sin;
             rates[INPUT] = (self.support_push(&pose, shaking, locked) - ground / self.block.size) * velocity;
             rates[RACK] = over * (device.rack_viscous * rack + device.rack_dry * direction) * rack;
+            if device.mesh > 0.0 && locked > 0.0 {
+                let held = self.locked_force(&pose, velocity, rates[VELOCITY], direction);
+                rates[RACK] += over * device.mesh * locked * held.abs() * rack.abs();
+            }
             let moving = device.guided + locked * device.inertance;
             rates[KINEMATICS] = (1.0 - device.consistent) * moving * pose.lever * pose.slope * velocity.powi(3);
         }

@@ -24,6 +24,10 @@ impl Model {
             }
             Guard::Overturn => state.block = BlockMode::Overturned,
             Guard::Command => state.drive = -state.drive,
+            Guard::Load => {
+                state.load = -state.load;
+                return;
+            }
             Guard::Retire => self.part_at_rest(state),
             Guard::Join(i) => state.values[SPIN + i] = self.rack_now(state),
             Guard::Stop(i) => state.values[SPIN + i] = 0.0,
@@ -133,6 +137,7 @@ impl Model {
                     state.wheels[i].link = found.links[i];
                 }
                 self.follow_rack(state);
+                self.look_at_load(state, found.acceleration, direction);
             } else {
                 self.stick_at_rest(state);
             }
@@ -149,6 +154,13 @@ impl Model {
                 state.armed = state.drive * self.drive(state, shaking) > 0.0;
             }
         }
+    }
+
+    /// The sign of the force of what is locked; a rack that sets out drives.
+    fn look_at_load(&self, state: &mut State, acceleration: f64, direction: f64) {
+        let pose = self.pose(state.side(), state.rotation());
+        let force = self.locked_force(&pose, state.velocity(), acceleration, direction);
+        state.load = if state.velocity() != 0.0 && direction * force < 0.0 { -1.0 } else { 1.0 };
     }
 
     /// Nothing slips on a rack that stands, once it stands too.

@@ -26,6 +26,8 @@ pub enum Guard {
     Join(usize),
     /// The force of an overrunning clutch is zero.
     Part(usize),
+    /// The force of what is locked changes its sign, and friction of the mesh with it.
+    Load,
     /// w = 0.
     Stop(usize),
     /// The link's force is the dry friction of a flywheel that stands.
@@ -57,9 +59,12 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
         if device.is_commanded() && state.armed {
             all.push((Guard::Command, state.drive * model.drive(state, shaking)));
         }
-        if state.wheels.iter().any(|wheel| wheel.link == Link::Locked) && !device.only_locks() {
+        if state.wheels.iter().any(|wheel| wheel.link == Link::Locked) && (!device.only_locks() || device.mesh > 0.0) {
             let acceleration = model.rates(state, state.time, &state.values, shaking)[crate::step::VELOCITY];
             locked_force = model.locked_force(&pose, velocity, acceleration, direction);
+            if device.mesh > 0.0 {
+                all.push((Guard::Load, state.load * direction * locked_force));
+            }
         }
     } else if state.block != BlockMode::Overturned {
         all.push((Guard::Leave, -model.readiness(state, shaking)));

@@ -33,6 +33,8 @@ pub enum Link {
     Locked,
     /// Plates slip; the flywheel is pulled along with this sign.
     Slipping(f64),
+    /// Pulled along by the difference of the speeds.
+    Dragged,
     /// Engaged, within the backlash.
     Play,
     /// On the spring, at this side of the backlash.
@@ -71,6 +73,8 @@ pub struct State {
     pub engagements: u32,
     /// Impacts so far that have a number.
     pub impacts: u32,
+    /// Sign of the force of what is locked over that of the motion, as last found: friction of the mesh adds to it or takes from it.
+    pub load: f64,
     /// The flywheel whose force has just reached the capacity of its plates, or zero (overrunning): it slips or parts, whatever
     /// rounding says.
     pub slipped: Option<usize>,

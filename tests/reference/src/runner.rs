@@ -8,7 +8,7 @@ use crate::guard::{Guard, guards};
 use crate::ledger::{Ledger, energy};
 use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::simulate::{Run, overturned_after};
-use crate::step::{INPUT, ROTATION, SIZE, VELOCITY, step};
+use crate::step::{INPUT, ROTATION, SIZE, SPIN, VELOCITY, step};
 
 /// Events within this time (s) of one another count as one instant …
 const INSTANT: f64 = 1e-10;
@@ -37,7 +37,11 @@ pub(crate) struct Runner<'a> {
 impl<'a> Runner<'a> {
     /// At the start, with θ and θ̇.
     pub fn new(model: &'a Model, rotation: f64, velocity: f64, effort: Effort) -> Runner<'a> {
-        let link = if model.device.coupling == Coupling::Inerter { Link::Locked } else { Link::Open };
+        let link = match model.device.coupling {
+            Coupling::Inerter => Link::Locked,
+            Coupling::Slip { permanent: true, .. } => Link::Dragged,
+            _ => Link::Open,
+        };
         let wheel = Wheel { link, turning: None, command: Command::default() };
         let mut other = wheel;
         other.link = Link::Open;
@@ -59,6 +63,7 @@ impl<'a> Runner<'a> {
             armed: true,
             engagements: 0,
             impacts: 0,
+            load: 1.0,
             slipped: None,
         };
         let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
@@ -127,6 +132,9 @@ impl<'a> Runner<'a> {
         let model = self.model;
         // What is always locked moves with the block from the start.
         model.follow_rack(&mut self.state);
+        if self.state.wheels[0].link == Link::Dragged {
+            self.state.values[SPIN] = model.rack_now(&self.state);
+        }
         let (mut impacts, mut peak) = (0, self.state.rotation().abs());
         let (mut samples, mut events) = (Vec::new(), Vec::new());
         let mut at_once = 0;

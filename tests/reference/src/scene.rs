@@ -101,6 +101,7 @@ pub struct DeviceTable {
     pub rack: RackTable,
     #[serde(default)]
     pub actuation: ActuationTable,
+    pub inertance_corner_hz: Option<f64>,
     #[serde(default)]
     pub weight: WeightTable,
     pub support_amplification: Option<f64>,
@@ -148,6 +149,7 @@ pub struct RackTable {
     pub viscous_n_s_m: Option<f64>,
     pub dry_friction_ratio: Option<f64>,
     pub dry_friction_n: Option<f64>,
+    pub load_friction: f64,
 }
 
 /// `actuation`.

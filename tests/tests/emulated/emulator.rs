@@ -191,7 +191,7 @@ impl Effect {
 
 /// Every one alone, and all together.
 fn effects() -> Vec<Effect> {
-    let rack = Rack { guided_mass_ratio: 0.0, viscous: 0.05, dry_ratio: 0.004 };
+    let rack = Rack { viscous: 0.05, dry_ratio: 0.004, ..Rack::default() };
     let guided = Rack { guided_mass_ratio: 0.05, ..Rack::default() };
     let coasting = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
     let braked = FlywheelLosses { brake_deceleration: 5.0, ..coasting };
@@ -231,6 +231,12 @@ fn effects() -> Vec<Effect> {
         Effect::of(
             "friction clutch of a coil",
             Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
+        ),
+        Effect::of("viscous slip", of(Engagement::Viscous { corner_frequency: 4.0 }, braked)),
+        Effect::of("load friction", Drivetrain { rack: Rack { load_friction: 0.1, ..rack }, ..of(Engagement::Ideal, coasting) }),
+        Effect::of(
+            "load friction of a rigid clutch",
+            Drivetrain { rack: Rack { load_friction: 0.1, ..Rack::default() }, ..rigid },
         ),
         Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },

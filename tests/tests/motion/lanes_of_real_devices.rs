@@ -64,6 +64,8 @@ fn drivetrains() -> Vec<Drivetrain> {
         Drivetrain { engagement: Engagement::Friction { capacity_ratio: 0.2 }, ..lossy },
         Drivetrain { engagement: Engagement::Overrunning, actuation: Actuation::default(), ..lossy },
         Drivetrain { actuation: delays, ..Drivetrain::default() },
+        Drivetrain { engagement: Engagement::Viscous { corner_frequency: 3.0 }, ..lossy },
+        Drivetrain { rack: Rack { load_friction: 0.2, ..Rack::default() }, ..lossy },
     ]
 }
 

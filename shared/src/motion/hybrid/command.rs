@@ -62,7 +62,7 @@ fn ramp_due<S: Real>(parameters: &ScaledParameters<S>, wheel: &FlywheelState<S>,
     let held = match wheel.coupling {
         Coupling::Slipping(_) | Coupling::Saturated(_) | Coupling::Elastic(_) => wheel.turning.is_none(),
         Coupling::Locked => block_held,
-        Coupling::Open | Coupling::InPlay => false,
+        Coupling::Open | Coupling::Viscous | Coupling::InPlay => false,
     };
     if !held || parameters.standing_friction(wheel).1 == S::ZERO {
         return Some(end);

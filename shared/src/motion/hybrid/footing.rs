@@ -42,7 +42,7 @@ impl<S: Real> HybridSystem<S> {
     pub fn stands_through(&self, footing: &Footing<S>, state: &mut HybridState<S>, shaking: Shaking<'_, S>, duration: S) -> bool {
         let waits = state.device.wheels.iter().all(|wheel| {
             wheel.spin == S::ZERO
-                && matches!(wheel.coupling, Coupling::Open | Coupling::Locked)
+                && matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Viscous)
                 && (wheel.pending < S::ZERO || wheel.pending > duration)
         });
         if state.motion.phase != Phase::Rest || !waits || self.transmission.parameters.rise_time > S::ZERO || duration <= S::ZERO

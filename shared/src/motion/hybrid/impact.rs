@@ -2,7 +2,7 @@
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::GUARDS;
+use crate::drivetrain::clutch_state::{Coupling, GUARDS};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
@@ -72,14 +72,18 @@ impl<S: Real> HybridSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
-        let ScaledParameters { inertance, rack_coupling, .. } = self.transmission.parameters;
+        let ScaledParameters { inertance, rack_coupling, load_friction, .. } = self.transmission.parameters;
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
             let held = -self.breakaway(standing, side, side).at(standing.ground);
             let over = |inward: bool| {
+                // Swings as short as these leave a flywheel behind that slips viscously.
+                let inertance = if self.transmission.slips_viscously() { S::ZERO } else { inertance };
                 let inertance = if inward || self.transmission.traits().permanent { inertance } else { S::ZERO };
-                let inertia = S::ONE + (inertance + rack_coupling) * arm * arm;
+                // Outward the flywheel drives the rack.
+                let load = if inward { load_friction } else { -load_friction };
+                let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
                 (held / inertia).larger(S::EPSILON * S::EPSILON)
             };
             (over(false), over(true))
@@ -91,6 +95,11 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn start(&self, state: &mut HybridState<S>) {
         let inward = state.motion.side.opposite();
         state.motion.terminal_acceleration_sign = inward;
+        if state.device.wheels[0].coupling == Coupling::Viscous {
+            // What is always engaged has moved with the rack.
+            let configuration = self.body.configuration(state.motion.side.unit(), state.motion.rotation);
+            state.device.wheels[0].spin = self.body.to_terminal(&configuration, state.motion.velocity);
+        }
         self.look_at_drive(state);
         if state.motion.velocity == S::ZERO {
             self.turned(state);

@@ -444,7 +444,14 @@ impl<S: Real> HybridSystem<S> {
         let side = state.motion.side;
         let point = self.point(law, side, at);
         let mut device = self.transmission.account(&point, acceleration, &state.device);
-        device.spent.kinematics = self.body.paper_power(side.unit(), &point.configuration, at.velocity, law.coupling);
+        let parameters = &self.transmission.parameters;
+        // What load friction adds to the coupling is friction.
+        let coupling = if parameters.load_friction == S::ZERO {
+            law.coupling
+        } else {
+            parameters.rack_coupling + S::count(state.device.locked()) * parameters.inertance
+        };
+        device.spent.kinematics = self.body.paper_power(side.unit(), &point.configuration, at.velocity, coupling);
         Snapshot {
             motion: Motion { rotation: at.rotation, velocity: at.velocity, acceleration },
             ground: at.ground,

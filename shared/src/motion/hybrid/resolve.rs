@@ -54,15 +54,24 @@ impl Drivetrain {
     /// Whether flywheels have a speed of their own. Such a device moves by the consistent kinematics, whatever the structure
     /// says: a rack whose acceleration is not the derivative of its speed would run away from a flywheel locked to it.
     pub fn has_memory(&self, kind: DeviceKind) -> bool {
-        kind == DeviceKind::ClutchedPair && self.engagement != Engagement::Ideal
+        match (kind, self.engagement) {
+            (DeviceKind::None, _) | (DeviceKind::ClutchedPair, Engagement::Ideal) => false,
+            (DeviceKind::Inerter, engagement) => matches!(engagement, Engagement::Viscous { .. }),
+            (DeviceKind::ClutchedPair, _) => true,
+        }
     }
 
     fn transmission(&self, kind: DeviceKind) -> TransmissionKind {
         let Drivetrain { engagement, flywheel, rack, support, .. } = self;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
         let friction = friction || *support != Support::default();
+        let loaded = rack.load_friction != 0.0;
         match (kind, engagement) {
             (DeviceKind::None, _) => TransmissionKind::Alone,
+            (DeviceKind::Inerter, Engagement::Ideal | Engagement::Rigid) if loaded => TransmissionKind::LoadedSingle,
+            (DeviceKind::ClutchedPair, Engagement::Ideal) if loaded => TransmissionKind::LoadedIdeal,
+            (DeviceKind::ClutchedPair, Engagement::Rigid) if loaded => TransmissionKind::LoadedRigid,
+            (DeviceKind::Inerter, Engagement::Viscous { .. }) => TransmissionKind::ViscousSingle,
             (DeviceKind::Inerter, _) if friction => TransmissionKind::SingleWithFriction,
             (DeviceKind::Inerter, _) => TransmissionKind::Single,
             (DeviceKind::ClutchedPair, Engagement::Ideal) if friction => TransmissionKind::IdealWithFriction,
@@ -71,6 +80,7 @@ impl Drivetrain {
             (DeviceKind::ClutchedPair, Engagement::Overrunning) => TransmissionKind::Overrunning,
             (DeviceKind::ClutchedPair, Engagement::Friction { .. }) => TransmissionKind::Friction,
             (DeviceKind::ClutchedPair, Engagement::Elastic { .. }) => TransmissionKind::Elastic,
+            (DeviceKind::ClutchedPair, Engagement::Viscous { .. }) => TransmissionKind::Viscous,
         }
     }
 }

@@ -4,7 +4,7 @@ use super::mode_output::Shaking;
 use super::seen::Still;
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, GUARDS};
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState, GUARDS};
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
@@ -33,7 +33,7 @@ impl<S: Real> HybridSystem<S> {
     /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
     pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         if self.transmission.traits().permanent {
-            state.device.wheels[0].coupling = Coupling::Locked;
+            state.device.wheels[0].coupling = self.transmission.permanent_link();
             return;
         }
         if self.actuator.controlled {
@@ -91,9 +91,15 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that observers integrate.
+    /// What viscous slip slows down, faster than all else moves, is shown in pieces.
     pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
-        let stops = state.device.wheels.iter().filter_map(|wheel| self.transmission.parameters.stops_within(wheel, time));
-        stops.fold(time, Real::smaller)
+        let parameters = &self.transmission.parameters;
+        let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
+        let end = stops.fold(time, Real::smaller);
+        let spins =
+            |wheel: &&FlywheelState<S>| wheel.coupling == Coupling::Viscous && wheel.spin.abs() > self.rest_speed * S::EPSILON;
+        let slow = state.device.wheels.iter().filter(spins).map(|wheel| S::of(2.0) / parameters.slowing_rate(wheel));
+        slow.fold(end, Real::smaller)
     }
 
     /// The block stands from `time` to `end`, and flywheels coast.
@@ -121,11 +127,12 @@ impl<S: Real> HybridSystem<S> {
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
     pub(super) fn stands_until(&self, state: &mut HybridState<S>, time: S, duration: S) -> S {
-        if !self.actuator.controlled {
+        if !self.actuator.controlled && self.transmission.permanent_link() != Coupling::Viscous {
             return duration;
         }
         let mut stop = self.until_due(state, time, duration);
-        for wheel in state.device.wheels.iter_mut().filter(|wheel| matches!(wheel.coupling, Coupling::Slipping(_))) {
+        let pushes = |wheel: &&mut FlywheelState<S>| matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Viscous);
+        for wheel in state.device.wheels.iter_mut().filter(pushes) {
             match self.transmission.parameters.stops_within(wheel, stop - time) {
                 Some(stops) if time + stops > time => stop = time + stops,
                 Some(stops) => self.transmission.parameters.coast(wheel, stops),

@@ -11,7 +11,7 @@ use crate::math::sign::Sign;
 /// Roundings within which a threshold counts as zero.
 const ROUNDINGS: f64 = 64.0;
 
-/// a ü_g/g + b (1 + v̈_g/g) + c + d t: the moment that moves the block to one side, over its inertia about the toe; 1/s².
+/// a ü_g/g + b (1 + v̈_g/g) + c + d t + e exp(−r t): the moment that moves the block to one side, over its inertia about the toe; 1/s².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold<S> {
     horizontal: S,
@@ -19,6 +19,8 @@ pub(super) struct Threshold<S> {
     constant: S,
     /// d, the growth by the capacity of engaged plates, 1/s³.
     growth: S,
+    /// e, the push of flywheels through viscous slip, 1/s², and its rate r, 1/s.
+    decay: (S, S),
 }
 
 /// The earlier of two instants, with what is known of it.
@@ -29,13 +31,13 @@ pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T
 impl<S: Real> Threshold<S> {
     /// Its value for the ground acceleration in g.
     pub(super) fn at(&self, ground: [S; 2]) -> S {
-        self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + self.constant
+        self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + (self.constant + self.decay.0)
     }
 
     /// Bound of its rounding error.
     fn rounding(&self, ground: [S; 2]) -> S {
         let terms = (self.horizontal * ground[0]).abs() + self.vertical.abs() * (S::ONE + ground[1]).abs() + self.constant.abs();
-        terms * S::EPSILON * S::of(ROUNDINGS)
+        (terms + self.decay.0.abs()) * S::EPSILON * S::of(ROUNDINGS)
     }
 
     /// Whether it is above zero, by more than rounding.
@@ -45,24 +47,30 @@ impl<S: Real> Threshold<S> {
 
     /// |ü_g|/g below which it stays under zero while 1 + v̈_g/g is at least `lightest` (above 0).
     pub(super) fn least_horizontal(&self, lightest: S) -> S {
-        (-(self.vertical * lightest + self.constant) / self.horizontal.abs()).larger(S::ZERO)
+        (-(self.vertical * lightest + (self.constant + self.decay.0.larger(S::ZERO))) / self.horizontal.abs()).larger(S::ZERO)
     }
 
     /// The moment that holds where this one moves.
     pub(super) fn opposite(&self) -> Threshold<S> {
-        let Threshold { horizontal, vertical, constant, growth } = *self;
-        Threshold { horizontal: -horizontal, vertical: -vertical, constant: -constant, growth: -growth }
+        let Threshold { horizontal, vertical, constant, growth, decay: (push, rate) } = *self;
+        Threshold { horizontal: -horizontal, vertical: -vertical, constant: -constant, growth: -growth, decay: (-push, rate) }
     }
 
     /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
     /// or by a jump. It grows from `from` on.
     pub(super) fn exceeded(&self, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
+        let (push, rate) = self.decay;
         let value = |t: S| {
             let mut slope = self.horizontal * shaking.horizontal.slope(t) + self.growth;
             if let Some(vertical) = shaking.vertical {
                 slope = slope + self.vertical * vertical.slope(t);
             }
-            (self.at(shaking.at(t)) + self.growth * (t - from), slope)
+            let now = self.at(shaking.at(t)) + self.growth * (t - from);
+            if push == S::ZERO {
+                return (now, slope);
+            }
+            let left = (-(rate * (t - from))).exp();
+            (now - push * (S::ONE - left), slope - push * rate * left)
         };
         let ground = shaking.at(from);
         let (now, slope) = value(from);
@@ -75,6 +83,7 @@ impl<S: Real> Threshold<S> {
         if let Some(vertical) = shaking.vertical {
             curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
         }
+        curvature = curvature + push.abs() * rate * rate;
         let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
         // A breakaway within rounding of the segment's end belongs to the next segment.
         zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
@@ -90,17 +99,19 @@ impl<S: Real> HybridSystem<S> {
         let (horizontal, vertical) = self.body.factors(&configuration);
         let arm = self.body.arm(&configuration);
         let parameters = &self.transmission.parameters;
+        let (mut decaying, mut rate) = (S::ZERO, S::ZERO);
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
         let mut push = parameters.rack_push;
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
         let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
             Coupling::Locked => true,
             Coupling::Slipping(_) => wheel.spin == S::ZERO,
-            Coupling::Open | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
+            Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
         };
         let wheels = &state.device.wheels;
         for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
-            dry = add(dry, parameters.standing_friction(wheel));
+            let (friction, growth) = parameters.standing_friction(wheel);
+            dry = add(dry, (friction * (S::ONE + parameters.load_friction), growth));
             push = push - parameters.support_push;
         }
         let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
@@ -111,12 +122,21 @@ impl<S: Real> HybridSystem<S> {
             for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
                 force = add(force, (account.force[i], law.slip_growth[i]));
             }
+            // A flywheel that slips viscously slows down as (w + d/r) e^(−r t) − d/r while the rack stands.
+            for wheel in wheels.iter().filter(|wheel| wheel.coupling == Coupling::Viscous) {
+                rate = parameters.slowing_rate(wheel);
+                let steady = Sign::of(wheel.spin, Sign::Positive).times(parameters.dry_of(wheel) / rate);
+                if wheel.spin != S::ZERO {
+                    decaying = decaying + parameters.damping * (wheel.spin + steady);
+                }
+            }
         }
         Threshold {
             horizontal: sign.times(horizontal - arm * push),
             vertical: sign.times(vertical),
-            constant: -(arm * dry.0) - sign.times(arm * force.0),
+            constant: -(arm * dry.0) - sign.times(arm * (force.0 + decaying)),
             growth: -(arm * dry.1) - sign.times(arm * force.1),
+            decay: (sign.times(arm * decaying), rate),
         }
     }
 }

@@ -117,6 +117,7 @@ fn effects_are_listed_and_shown() {
         "flywheel",
         "engagement",
         "clutch",
+        "slip",
         "rack",
         "actuation",
         "weight",

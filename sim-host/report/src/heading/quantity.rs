@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 72] = [
+const QUANTITIES: [Quantity; 74] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -57,6 +57,7 @@ const QUANTITIES: [Quantity; 72] = [
     quantity("device.N.rack.viscous_n_s_m", "viscous friction of the rack", "", "N s/m"),
     quantity("device.N.rack.dry_friction_ratio", "dry friction of the rack", "*F*/(*mg*)", ""),
     quantity("device.N.rack.dry_friction_n", "dry friction of the rack", "*F*", "N"),
+    quantity("device.N.rack.load_friction", "friction of the rack over load", "μ", ""),
     quantity("device.N.actuation.engagement_delay_s", "engagement delay", "", "s"),
     quantity("device.N.actuation.release_delay_s", "release delay", "", "s"),
     quantity("device.N.actuation.rise_time_s", "rise time", "", "s"),
@@ -64,6 +65,7 @@ const QUANTITIES: [Quantity; 72] = [
     quantity("device.N.actuation.dwell_s", "dwell", "", "s"),
     quantity("device.N.actuation.miss_probability", "probability of a missed engagement", "", ""),
     quantity("device.N.actuation.miss_seed", "seed of missed engagements", "", ""),
+    quantity("device.N.inertance_corner_hz", "corner frequency of the inertance", "*f*_c", "Hz"),
     quantity("device.N.weight.flywheels_ratio", "mass of the flywheels over that of the block", "", ""),
     quantity("device.N.weight.flywheels_kg", "mass of the flywheels", "", "kg"),
     quantity("device.N.weight.rack_ratio", "mass of the rack over that of the block", "", ""),

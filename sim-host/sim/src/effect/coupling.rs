@@ -16,7 +16,7 @@ pub const ENGAGEMENT: Effect = Effect {
     keys: &["device.N.engagement"],
     is_on: |scene, index| match scene.devices[index].drivetrain.engagement {
         Engagement::Rigid | Engagement::Overrunning => true,
-        Engagement::Ideal | Engagement::Friction { .. } | Engagement::Elastic { .. } => false,
+        Engagement::Ideal | Engagement::Friction { .. } | Engagement::Elastic { .. } | Engagement::Viscous { .. } => false,
     },
 };
 
@@ -40,8 +40,21 @@ pub const CLUTCH: Effect = Effect {
     ],
     is_on: |scene, index| match scene.devices[index].drivetrain.engagement {
         Engagement::Friction { .. } | Engagement::Elastic { .. } => true,
-        Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => false,
+        Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning | Engagement::Viscous { .. } => false,
     },
+};
+
+/// Viscous slip.
+pub const SLIP: Effect = Effect {
+    name: "slip",
+    summary: "inertance that falls with frequency, by viscous slip between rack and flywheel",
+    equation: &[
+        "F = c (ẋ − w),  m_r ẇ = F less bearings,  c = 2π f_c m_r,  while engaged",
+        "at a frequency f: |F| = m_r |ẍ|/√(1 + (f/f_c)²), which lags ẍ by arctan(f/f_c)",
+    ],
+    source: "a dashpot in series (Maxwell); Madhamshetty and Manimala 2018 measured a fall below 5 Hz",
+    keys: &["device.N.inertance_corner_hz"],
+    is_on: |scene, index| matches!(scene.devices[index].drivetrain.engagement, Engagement::Viscous { .. }),
 };
 
 /// Delays of the clutch.

@@ -73,18 +73,22 @@ pub const WEIGHT: Effect = Effect {
 /// Friction of the rack.
 pub const RACK: Effect = Effect {
     name: "rack",
-    summary: "viscous and dry friction that the rack meets, whatever the clutch does",
-    equation: &["F_r = m (c_r ẋ + μ_r g sgn ẋ),  ẋ = R ℓ θ̇"],
-    source: "Coulomb and viscous friction",
+    summary: "viscous and dry friction that the rack meets, and friction in its mesh that grows with the force of locked flywheels",
+    equation: &[
+        "F_r = m (c_r ẋ + μ_r g sgn ẋ) + μ_m Σ|F| sgn ẋ,  ẋ = R ℓ θ̇,  F the force of a locked flywheel",
+        "a share 1/(1 + μ_m) of the power arrives while the rack drives a flywheel, 1 − μ_m while the flywheel drives the rack",
+    ],
+    source: "Coulomb and viscous friction; Wang and Su 2008 for friction of built inerters",
     keys: &[
         "device.N.rack.viscous_1_s",
         "device.N.rack.viscous_n_s_m",
         "device.N.rack.dry_friction_ratio",
         "device.N.rack.dry_friction_n",
+        "device.N.rack.load_friction",
     ],
     is_on: |scene, index| {
         let device = &scene.devices[index];
         let rack = device.drivetrain.rack;
-        device.device.kind != DeviceKind::None && (rack.viscous != 0.0 || rack.dry_ratio != 0.0)
+        device.device.kind != DeviceKind::None && (rack.viscous != 0.0 || rack.dry_ratio != 0.0 || rack.load_friction != 0.0)
     },
 };

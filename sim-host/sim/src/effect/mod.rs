@@ -35,7 +35,7 @@ pub struct Effect {
 }
 
 /// All of them, in the order of the way from the ground to the flywheels and out.
-pub const EFFECTS: [&Effect; 17] = [
+pub const EFFECTS: [&Effect; 18] = [
     &block::GEOMETRY,
     &block::VERTICAL,
     &block::IMPACT,
@@ -49,6 +49,7 @@ pub const EFFECTS: [&Effect; 17] = [
     &device::RACK,
     &coupling::ENGAGEMENT,
     &coupling::CLUTCH,
+    &coupling::SLIP,
     &coupling::ACTUATION,
     &coupling::FLYWHEEL,
     &output::CHECKS,

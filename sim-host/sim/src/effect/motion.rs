@@ -22,7 +22,7 @@ pub(super) fn motion(subject: &Subject<'_>) -> Vec<String> {
 /// The flywheels that can be locked to the rack, and so share its inertia: how their sum is written.
 fn locked(subject: &Subject<'_>) -> Option<&'static str> {
     match (subject.device.device.kind, subject.device.drivetrain.engagement) {
-        (DeviceKind::None, _) | (_, Engagement::Elastic { .. }) => None,
+        (DeviceKind::None, _) | (_, Engagement::Elastic { .. } | Engagement::Viscous { .. }) => None,
         (DeviceKind::Inerter, _) => Some("σ"),
         (DeviceKind::ClutchedPair, _) => Some("κ σ"),
     }
@@ -53,14 +53,19 @@ fn forces(subject: &Subject<'_>) -> String {
     };
     let drivetrain = &subject.device.drivetrain;
     let mut sum = Vec::new();
-    if matches!(drivetrain.engagement, Engagement::Friction { .. } | Engagement::Elastic { .. }) {
-        sum.push("F₁ + F₂");
+    match (subject.device.device.kind, drivetrain.engagement) {
+        (DeviceKind::Inerter, Engagement::Viscous { .. }) => sum.push("F₁"),
+        (_, Engagement::Friction { .. } | Engagement::Elastic { .. } | Engagement::Viscous { .. }) => sum.push("F₁ + F₂"),
+        (_, Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning) => {}
     }
     if has_bearing(&drivetrain.flywheel) && locked(subject).is_some() {
         sum.push("F_b");
     }
     if drivetrain.rack.viscous != 0.0 || drivetrain.rack.dry_ratio != 0.0 {
         sum.push("F_r");
+    }
+    if drivetrain.rack.load_friction != 0.0 {
+        sum.push("F_m");
     }
     match sum.as_slice() {
         [] => {}
@@ -96,7 +101,9 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
             Engagement::Friction { .. } => {
                 lines.push("κ: how many flywheels stick to the rack;  Fᵢ: of slipping plates".to_owned())
             }
-            Engagement::Elastic { .. } => lines.push("Fᵢ: force of clutch i on the rack".to_owned()),
+            Engagement::Elastic { .. } | Engagement::Viscous { .. } => {
+                lines.push("Fᵢ: force of clutch i on the rack".to_owned());
+            }
         }
     }
     if has_bearing(&drivetrain.flywheel)
@@ -111,6 +118,12 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
             "F_r = m (c_r R ℓ θ̇ + μ_r g sgn(ℓ θ̇)),  c_r = {} 1/s,  μ_r = {}",
             number(subject.per_mass(rack.viscous)),
             number(subject.per_mass(rack.dry_ratio))
+        ));
+    }
+    if rack.load_friction != 0.0 {
+        lines.push(format!(
+            "F_m = μ_m |F| sgn(ℓ θ̇),  F = m_r (ẍ + c ẋ + d sgn ẋ) of each locked flywheel,  μ_m = {}",
+            number(rack.load_friction)
         ));
     }
     if rack.guided_mass_ratio != 0.0 {

@@ -19,7 +19,7 @@ pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
             lines.push("an engaged flywheel moves with the rack, w = R ℓ θ̇; a released one stops at once".to_owned());
             false
         }
-        (DeviceKind::ClutchedPair, Engagement::Elastic { .. }) => {
+        (DeviceKind::ClutchedPair, Engagement::Elastic { .. } | Engagement::Viscous { .. }) => {
             lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
             true
         }
@@ -27,6 +27,10 @@ pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
             lines.push("a locked flywheel moves with the rack, wᵢ = R ℓ θ̇; any other by".to_owned());
             lines.push("ẇᵢ = Fᵢ/m_r − c wᵢ − (d + b) sgn wᵢ,  wᵢ the speed of a rack that would move with flywheel i".to_owned());
             true
+        }
+        (DeviceKind::Inerter, Engagement::Viscous { .. }) => {
+            lines.push("ẇ₁ = F₁/m_r − c w₁ − d sgn w₁,  w₁ the speed of a rack that would move with the flywheel".to_owned());
+            false
         }
         (DeviceKind::None | DeviceKind::Inerter, _) => {
             lines.push("the flywheel always moves with the rack, w = R ℓ θ̇".to_owned());
@@ -78,6 +82,13 @@ fn clutch(subject: &Subject<'_>) -> Vec<String> {
             }
             lines
         }
+        Engagement::Viscous { corner_frequency } => {
+            let number_of = if subject.device.device.kind == DeviceKind::Inerter { "₁" } else { "ᵢ" };
+            vec![format!(
+                "viscous slip: F{number_of} = 2π f_c m_r (R ℓ θ̇ − w{number_of}) while engaged,  f_c = {} Hz",
+                number(corner_frequency)
+            )]
+        }
         Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning => Vec::new(),
     }
 }
@@ -102,6 +113,7 @@ pub(super) fn engagement(subject: &Subject<'_>) -> Vec<String> {
             "block and flywheel exchange momentum: (λ + (K + σ) ℓ²) θ̇⁺ = (λ + K ℓ²) θ̇⁻ + σ ℓ w/R, K already locked"
         }
         Engagement::Friction { .. } => "plates slip until flywheel and rack have one speed: no jump",
+        Engagement::Viscous { .. } => "the force starts with the difference of the speeds: no jump",
         Engagement::Elastic { .. } => "the spring starts without twist, in the middle of the backlash: no jump",
     };
     let mut lines = vec![format!("commanded while acceleration and velocity of the terminals have one sign (Eq. 10); {turns}")];
@@ -157,7 +169,7 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
         lines.push("while it rocks the toe slips where |H| > μ V, and sticks again at ẋ = 0 where |H| ≤ μ V".to_owned());
         lines.push("an impact whose impulses need more than μ slides: P_x = −μ d P_y,  d = sgn ẋ after it".to_owned());
     }
-    if subject.device.device.kind == DeviceKind::ClutchedPair {
+    if subject.device.device.kind == DeviceKind::ClutchedPair || matches!(drivetrain.engagement, Engagement::Viscous { .. }) {
         let at_impact = match drivetrain.engagement {
             Engagement::Ideal => None,
             Engagement::Rigid => Some("a locked flywheel stays locked and changes its speed with the rack; others keep theirs"),
@@ -165,6 +177,7 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
             Engagement::Friction { .. } => {
                 Some("no plate holds against an impulse: flywheels keep their speed and the plates slip")
             }
+            Engagement::Viscous { .. } => Some("no dashpot passes an impulse on: flywheels keep their speed"),
             Engagement::Elastic { .. } => Some("springs keep their twist and flywheels their speed"),
         };
         lines.extend(at_impact.map(|text| format!("at an impact {text}")));
@@ -185,15 +198,17 @@ fn uplift(subject: &Subject<'_>) -> String {
     let threshold = geometry.uplift_threshold(block.slenderness());
     let slope = if geometry == Geometry::Full { "tan α" } else { "α" };
     // A pair's flywheel is taken on as the block goes: at once without a delay, and a spring that is not wound up yet holds nothing.
-    let friction = structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY;
+    let load = 1.0 + drivetrain.rack.load_friction;
+    let meshed = if load == 1.0 { " + σ d ℓ" } else { " + (1 + μ_m) σ d ℓ" };
+    let friction = load * structure.device.mass_ratio * drivetrain.flywheel.dry_deceleration / GRAVITY;
     let (bearing, term) = match (structure.device.kind, drivetrain.engagement) {
-        (DeviceKind::Inerter, _) => (friction, " + σ d ℓ"),
-        (DeviceKind::None, _) | (_, Engagement::Elastic { .. }) => (0.0, ""),
+        (DeviceKind::None, _) | (_, Engagement::Elastic { .. } | Engagement::Viscous { .. }) => (0.0, ""),
+        (DeviceKind::Inerter, _) => (friction, meshed),
         (DeviceKind::ClutchedPair, _) if drivetrain.actuation.engagement_delay > 0.0 => (0.0, ""),
         (DeviceKind::ClutchedPair, Engagement::Friction { capacity_ratio }) if subject.per_mass(capacity_ratio) < friction => {
             (subject.per_mass(capacity_ratio), " + F_c ℓ")
         }
-        (DeviceKind::ClutchedPair, _) => (friction, " + σ d ℓ"),
+        (DeviceKind::ClutchedPair, _) => (friction, meshed),
     };
     let dry = subject.per_mass(drivetrain.rack.dry_ratio) + bearing;
     let guided = subject.per_mass(drivetrain.rack.guided_mass_ratio);
@@ -240,6 +255,9 @@ fn restitution(subject: &Subject<'_>) -> String {
                 eta(momentum_balance(&structure.block, structure.geometry, &device.mount, count * device.mass_ratio))
             };
             match (structure.device.kind, subject.device.drivetrain.engagement) {
+                (DeviceKind::Inerter, Engagement::Viscous { .. }) => {
+                    format!("η by moment of momentum without the flywheel = {}", with(0.0))
+                }
                 (DeviceKind::ClutchedPair, Engagement::Rigid) => {
                     format!("η by moment of momentum with what is locked: {} with no flywheel, {} with one", with(0.0), with(1.0))
                 }

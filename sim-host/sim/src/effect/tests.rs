@@ -27,6 +27,7 @@ fn every_key_beyond_the_ideal_device_belongs_to_an_effect() {
         "device.N.actuation.",
         "device.N.weight.",
         "device.N.support",
+        "device.N.inertance_corner",
         "checks.",
     ];
     for key in keys(SceneFile::schema()).into_iter().filter(|key| !key.is_table) {

@@ -79,7 +79,7 @@ impl SceneDevice {
             clutching: match (self.device.kind, self.drivetrain.engagement) {
                 (DeviceKind::ClutchedPair, Engagement::Ideal) => Clutching::Ideal,
                 (DeviceKind::ClutchedPair, Engagement::Rigid) => Clutching::Rigid,
-                (DeviceKind::ClutchedPair, _) => Clutching::Real,
+                (DeviceKind::ClutchedPair, _) | (DeviceKind::Inerter, Engagement::Viscous { .. }) => Clutching::Real,
                 _ => Clutching::Permanent,
             },
             mass_ratio: loaded.device.mass_ratio,
@@ -131,6 +131,9 @@ pub struct DeviceTable {
     pub rack: Option<RackTable>,
     /// Delays between a command and a clutch that has obeyed it.
     pub actuation: Option<ActuationTable>,
+    /// Corner f_c of an inertance that falls as 1/√(1 + (f/f_c)²), by viscous slip; in the place of `engagement` and `clutch`.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1000.0))]
+    pub inertance_corner_hz: Option<f64>,
     /// Gravitational mass of the device, and what it rides on.
     pub weight: Option<WeightTable>,
     /// Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves with the ground.
@@ -156,6 +159,7 @@ impl DeviceTable {
             clutch: None,
             rack: None,
             actuation: None,
+            inertance_corner_hz: None,
             weight: None,
             support_amplification: None,
         }
@@ -301,6 +305,7 @@ fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>
             ("clutch", table.clutch.is_some()),
             ("rack", table.rack.is_some()),
             ("actuation", table.actuation.is_some()),
+            ("inertance_corner_hz", table.inertance_corner_hz.is_some()),
             ("weight", table.weight.is_some()),
             ("support_amplification", table.support_amplification.is_some()),
         ];

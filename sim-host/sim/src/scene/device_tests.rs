@@ -113,7 +113,8 @@ fn a_clutch_is_in_the_cores_units() {
 #[test]
 fn rack_and_actuation_are_the_drivetrains() {
     let rack = |item: &str| device(1, item).drivetrain.rack;
-    let expected = Rack { guided_mass_ratio: 0.0, viscous: 0.05, dry_ratio: 0.002 };
+    let expected = Rack { viscous: 0.05, dry_ratio: 0.002, ..Rack::default() };
+    assert_eq!(rack("rack={ load_friction = 0.05 }"), Rack { load_friction: 0.05, ..Rack::default() });
     assert_eq!(rack("rack={ viscous_1_s = 0.05, dry_friction_ratio = 0.002 }"), expected);
     let absolute = rack("rack={ viscous_n_s_m = 50, dry_friction_n = 19.6133 }");
     close(absolute.viscous, 0.05);
@@ -135,6 +136,15 @@ fn rack_and_actuation_are_the_drivetrains() {
         miss_seed: 7,
     };
     assert_eq!(scene.unwrap().devices[2].drivetrain.actuation, expected);
+}
+
+#[test]
+fn inertance_with_a_corner_slips_viscously_with_and_without_a_clutch() {
+    for index in [1, 2] {
+        let found = device(index, "inertance_corner_hz=4");
+        assert_eq!(found.drivetrain.engagement, Engagement::Viscous { corner_frequency: 4.0 });
+        assert_eq!(found.device.kinematics, KinematicsKind::Consistent);
+    }
 }
 
 #[test]
@@ -205,6 +215,18 @@ fn contradictory_effects_are_refused_with_the_reason() {
         let items = [&format!("device.2.{engagement}"), "device.2.actuation.time_constant_s=0.1"];
         refused(&items, &["device.2.actuation.time_constant_s", "only a capacity can rise"]);
     }
+    let load = "device.2.rack={ load_friction = 0.1 }";
+    for other in ["engagement=overrunning", "clutch.capacity_ratio=0.1", "clutch.stiffness_ratio=10", "inertance_corner_hz=4"] {
+        refused(&[load, &format!("device.2.{other}")], &["device.2.rack.load_friction", "locked to the rack"]);
+    }
+    refused(&["device.2.rack.load_friction=1"], &["device.2.rack.load_friction is 1", "below 1"]);
+    refused(&["device.2.inertance_corner_hz=0"], &["device.2.inertance_corner_hz is 0", "to 1000 Hz"]);
+    for (name, value) in [("engagement", "engagement=rigid"), ("clutch", "clutch.capacity_ratio=0.1")] {
+        let items = ["device.2.inertance_corner_hz=4", &format!("device.2.{value}")];
+        refused(&items, &[&format!("device.2.{name}"), "only one of both"]);
+    }
+    let corners = ["device.1.inertance_corner_hz=4", "device.1.mount=base-corners"];
+    refused(&corners, &["device.1.inertance_corner_hz", "horizontal mount"]);
     let twice = "device.2.actuation={ rise_time_s = 0.1, time_constant_s = 0.1 }";
     refused(&[capacity, twice], &["device.2.actuation.time_constant_s", "linearly or exponentially"]);
     refused(&["device.1.weight={ flywheels_on = \"block\" }"], &["device.1.weight.flywheels_ratio is missing"]);

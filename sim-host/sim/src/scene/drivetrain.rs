@@ -122,6 +122,9 @@ pub struct RackTable {
     /// Dry friction; or give `dry_friction_ratio`.
     #[schemars(range(min = 0.0))]
     pub dry_friction_n: Option<f64>,
+    /// Friction of rack and pinion over the force of a locked flywheel in their mesh; of an inerter, an ideal or a rigid clutch.
+    #[schemars(extend("exclusiveMaximum" = 1.0), range(min = 0.0))]
+    pub load_friction: Option<f64>,
 }
 
 /// Of a clutch's delays.
@@ -221,6 +224,7 @@ impl DeviceTable {
             return Err(key("engagement").conflict("the properties of clutch already say how it engages: give only one of both"));
         }
         let engagement = match (&self.clutch, self.engagement.unwrap_or_default()) {
+            _ if self.inertance_corner_hz.is_some() => self.slip(key)?,
             (Some(clutch), _) => clutch.engagement(device.mass_ratio, block, block_mass, key)?,
             (None, EngagementName::Ideal) => Engagement::Ideal,
             (None, EngagementName::Rigid) => Engagement::Rigid,
@@ -229,7 +233,7 @@ impl DeviceTable {
         let flywheel = self.flywheel_losses(engagement, key)?;
         let actuation = self.actuation(engagement, key)?;
         let rack = match &self.rack {
-            Some(rack) => rack.resolve(block_mass, key)?,
+            Some(rack) => rack.resolve(engagement, block_mass, key)?,
             None => Rack::default(),
         };
         let mut drivetrain = Drivetrain { engagement, flywheel, rack, actuation, ..Drivetrain::default() };
@@ -251,7 +255,11 @@ impl DeviceTable {
     /// The first of the device's keys that takes it beyond the ideal device, if any.
     pub fn beyond_ideal(&self, drivetrain: &Drivetrain) -> Option<&'static str> {
         let ideal = Drivetrain::default();
-        let coupling = if self.clutch.is_some() { "clutch" } else { "engagement" };
+        let coupling = match drivetrain.engagement {
+            Engagement::Viscous { .. } => "inertance_corner_hz",
+            _ if self.clutch.is_some() => "clutch",
+            _ => "engagement",
+        };
         [
             (coupling, drivetrain.engagement != ideal.engagement),
             ("actuation", drivetrain.actuation != ideal.actuation),
@@ -276,7 +284,7 @@ impl DeviceTable {
         }
         let ideal = Drivetrain::default();
         let moved = [
-            ("engagement or clutch", drivetrain.engagement != ideal.engagement),
+            ("engagement, clutch or inertance_corner_hz", drivetrain.engagement != ideal.engagement),
             ("flywheel", drivetrain.flywheel != ideal.flywheel),
             ("rack", drivetrain.rack != ideal.rack),
         ];
@@ -287,6 +295,18 @@ impl DeviceTable {
             )),
             None => Ok(support),
         }
+    }
+
+    /// Viscous slip in the place of a clutch's other properties.
+    fn slip(&self, key: &KeyOf<'_>) -> Result<Engagement, SceneError> {
+        for (name, given) in [("engagement", self.engagement.is_some()), ("clutch", self.clutch.is_some())] {
+            if given {
+                return Err(
+                    key(name).conflict("inertance_corner_hz already says that a clutch slips viscously: give only one of both")
+                );
+            }
+        }
+        Ok(Engagement::Viscous { corner_frequency: self.inertance_corner_hz.unwrap_or_default() })
     }
 
     fn flywheel_losses(&self, engagement: Engagement, key: &KeyOf<'_>) -> Result<FlywheelLosses, SceneError> {
@@ -363,6 +383,8 @@ impl DeviceTable {
             "rack dry_ratio" => {
                 of(rack.is_some_and(|r| r.dry_friction_n.is_some()), "rack.dry_friction_n", "rack.dry_friction_ratio")
             }
+            "load_friction" => "rack.load_friction".to_owned(),
+            "corner_frequency" => "inertance_corner_hz".to_owned(),
             "capacity_ratio" => of(clutch.is_some_and(|c| c.capacity_n.is_some()), "clutch.capacity_n", "clutch.capacity_ratio"),
             "stiffness" if clutch.is_some_and(|c| c.stiffness_n_m.is_some()) => of(true, "clutch.stiffness_n_m", ""),
             "stiffness" => of(true, "clutch.stiffness_ratio", ""),
@@ -426,11 +448,18 @@ impl ClutchTable {
 }
 
 impl RackTable {
-    fn resolve(&self, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<Rack, SceneError> {
+    fn resolve(&self, engagement: Engagement, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<Rack, SceneError> {
+        let load_friction = self.load_friction.unwrap_or_default();
+        if load_friction != 0.0 && !matches!(engagement, Engagement::Ideal | Engagement::Rigid) {
+            let reason = "friction that grows with load is known for flywheels that are locked to the rack: those of an inerter, an ideal \
+                          or a rigid clutch, without an inertance_corner_hz";
+            return Err(key("rack.load_friction").conflict(reason));
+        }
         let either = |direct, absolute, unit| either(key, direct, absolute, block_mass, unit);
         let viscous = either(("rack.viscous_1_s", self.viscous_1_s), ("rack.viscous_n_s_m", self.viscous_n_s_m), 1.0)?;
         let dry =
             either(("rack.dry_friction_ratio", self.dry_friction_ratio), ("rack.dry_friction_n", self.dry_friction_n), GRAVITY)?;
-        Ok(Rack { guided_mass_ratio: 0.0, viscous: viscous.unwrap_or(0.0), dry_ratio: dry.unwrap_or(0.0) })
+        let (viscous, dry_ratio) = (viscous.unwrap_or(0.0), dry.unwrap_or(0.0));
+        Ok(Rack { guided_mass_ratio: 0.0, viscous, dry_ratio, load_friction })
     }
 }

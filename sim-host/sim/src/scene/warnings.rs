@@ -123,6 +123,7 @@ fn of_coasting(table: &DeviceTable, device: &SceneDevice, index: usize) -> Optio
         Engagement::Rigid => ("engagement", "is \"rigid\""),
         Engagement::Overrunning => ("engagement", "is \"overrunning\""),
         Engagement::Friction { .. } | Engagement::Elastic { .. } => ("clutch", "is given"),
+        Engagement::Viscous { .. } => ("inertance_corner_hz", "is given"),
     };
     let cure = if engagement == Engagement::Overrunning {
         format!("set device.{index}.flywheel.viscous_rate_1_s or dry_deceleration_m_s2")
@@ -169,6 +170,7 @@ mod tests {
             ("device.0.engagement=rigid", "a.toml: device.0.engagement is \"rigid\": "),
             ("device.0.engagement=overrunning", "a.toml: device.0.engagement is \"overrunning\": "),
             ("device.0.clutch.capacity_ratio=0.1", "a.toml: device.0.clutch is given: "),
+            ("device.0.inertance_corner_hz=4", "a.toml: device.0.inertance_corner_hz is given: "),
         ] {
             let found: Vec<String> = match change.starts_with("block.s") {
                 // The mass is that of another size.

@@ -34,7 +34,7 @@ use sprag_shared::{
 const MASS_RATIO: f64 = 0.5;
 
 /// A rack on guides, with friction.
-const RACK: Rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+const RACK: Rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004, load_friction: 0.0 };
 
 /// Bearings with friction.
 const BEARINGS: FlywheelLosses = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
@@ -61,7 +61,7 @@ const IDEAL: Drivetrain = Drivetrain {
     support: Support { amplification: 1.0 },
 };
 const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
-const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0 };
+const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0, load_friction: 0.0 };
 const PROMPT: Actuation = Actuation {
     engagement_delay: 0.0,
     release_delay: 0.0,
@@ -81,6 +81,8 @@ const ELASTIC: Drivetrain = Drivetrain {
     flywheel: BRAKED,
     ..IDEAL
 };
+const SLIP: Drivetrain = Drivetrain { engagement: Engagement::Viscous { corner_frequency: 4.0 }, flywheel: BRAKED, ..IDEAL };
+const LOADED: Drivetrain = Drivetrain { rack: Rack { load_friction: 0.05, ..NO_RACK }, ..RIGID };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
 fn body(consistent: bool, vertical: bool) -> FullBody<f32> {
@@ -149,6 +151,8 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line!("machine-friction-clutch", consistent, Friction, FRICTION, &integrator, level);
     line!("machine-elastic-rk4", consistent, Elastic, ELASTIC, &integrator, level);
     line!("machine-elastic-exponential", consistent, Elastic, ELASTIC, &midpoint, level);
+    line!("machine-viscous-slip", consistent, Viscous, SLIP, &integrator, level);
+    line!("machine-load-friction", consistent, LoadedRigid, LOADED, &integrator, level);
     line!("machine-all-together", body(true, true), Friction, ALL, &integrator, both);
     Ok(())
 }

@@ -88,7 +88,7 @@ fn device(draw: &mut Draw<'_>, text: &mut String) -> bool {
             draw.number_or_zero(1e-6, 10.0)
         );
     }
-    let clutch = if kind == "inerter" { 0 } else { draw.below(6) };
+    let clutch = if kind == "inerter" { 0 } else { draw.below(7) };
     let brake = match draw.below(3) {
         _ if clutch < 2 || clutch == 3 => "0.0".to_owned(),
         0 => "0.0".to_owned(),
@@ -119,6 +119,7 @@ fn device(draw: &mut Draw<'_>, text: &mut String) -> bool {
             }
             writeln!(text, " }}")
         }
+        6 => writeln!(text, "inertance_corner_hz = {:?}", draw.number(1e-3, 1e3)),
         _ => Ok(()),
     };
     if kind == "clutched-pair" && clutch != 3 && draw.seldom(2) {

@@ -105,7 +105,36 @@ pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str
             let _ = writeln!(text, "support_amplification = {}", own.between(-0.5, 2.5));
         }
     }
+    if matches!(family, "inerter" | "ideal" | "rigid") && !text[start..].contains("support_amplification") {
+        let mut own = *random;
+        own = Random::new(own.next_u64().rotate_left(32));
+        if own.chance(0.3) {
+            load_friction(text, start, own.logarithmic(0.01, 0.95));
+        } else if family != "ideal" && !corners && own.chance(0.4) {
+            slip(text, start, own.logarithmic(0.05, 50.0));
+        }
+    }
     family
+}
+
+/// Friction of the mesh, in the device's table from `start` on.
+fn load_friction(text: &mut String, start: usize, value: f64) {
+    let device = text.split_off(start);
+    match device.split_once("rack = { ") {
+        // A table may have no key yet.
+        Some((before, after)) => {
+            let comma = if after.starts_with(' ') { "" } else { ", " };
+            let _ = write!(text, "{before}rack = {{ load_friction = {value}{comma}{after}");
+        }
+        None => drop(write!(text, "{device}rack = {{ load_friction = {value} }}\n")),
+    }
+}
+
+/// Viscous slip in the place of a clutch that locks.
+fn slip(text: &mut String, start: usize, corner: f64) {
+    let device = text.split_off(start).replace("engagement = \"rigid\"\n", "");
+    // A rack of the paper's kinematics has no speed for its flywheel.
+    let _ = write!(text, "{device}inertance_corner_hz = {corner}\n");
 }
 
 fn mount(text: &mut String, random: &mut Random, height: f64, corners: bool) -> bool {

@@ -5,10 +5,12 @@ mod demands;
 mod energy;
 mod ground;
 mod limits;
+mod load_friction;
 mod methods;
 mod restitution_scatter;
 mod standing;
 mod support;
+mod viscous;
 
 use std::vec::Vec;
 
@@ -219,10 +221,10 @@ impl Shake {
 }
 
 /// Every kind of drivetrain, with losses where they belong.
-pub fn drivetrains() -> [(&'static str, Drivetrain); 9] {
+pub fn drivetrains() -> [(&'static str, Drivetrain); 12] {
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
     let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
-    let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004 };
+    let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004, ..Rack::default() };
     let guided = Rack { guided_mass_ratio: 0.02, ..Rack::default() };
     let of = |engagement, flywheel, rack| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };
     let elastic = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
@@ -248,6 +250,9 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 9] {
                 ..of(Engagement::Friction { capacity_ratio: 0.03 }, flywheel, rack)
             },
         ),
+        ("ideal with load friction", of(Engagement::Ideal, bearings, Rack { load_friction: 0.1, ..rack })),
+        ("rigid with load friction", of(Engagement::Rigid, flywheel, Rack { load_friction: 0.1, ..rack })),
+        ("viscous slip", of(Engagement::Viscous { corner_frequency: 3.0 }, flywheel, rack)),
         (
             "ideal on a moving support",
             Drivetrain { support: Support { amplification: 1.3 }, rack: guided, ..Drivetrain::default() },
