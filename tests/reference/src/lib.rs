@@ -30,4 +30,5 @@ pub mod scatter;
 pub mod scene;
 pub mod simulate;
 pub mod step;
+pub mod support;
 pub mod tally;

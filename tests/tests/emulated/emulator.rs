@@ -231,7 +231,7 @@ fn effects() -> Vec<Effect> {
             "friction clutch of a coil",
             Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
         ),
-        Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
+        Effect::of("moving support", Drivetrain { support: Support::amplified(1.5), ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
         Effect { scatter, ..Effect::of("impacts that differ", Drivetrain::default()) },
         Effect { restitution: balance, scatter, added_mass: gears, ..Effect::of("all together", all) },

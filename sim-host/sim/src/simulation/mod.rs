@@ -18,6 +18,8 @@ pub mod recorder;
 pub mod run;
 pub mod scatter;
 pub mod step_end;
+#[cfg(all(test, feature = "effects"))]
+mod support_tests;
 pub mod watchers;
 
 pub use device_run::{DeviceRun, ErrorReport};

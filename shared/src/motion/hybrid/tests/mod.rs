@@ -9,6 +9,7 @@ mod methods;
 mod restitution_scatter;
 mod standing;
 mod support;
+mod support_motion;
 
 use std::vec::Vec;
 
@@ -197,11 +198,11 @@ impl Shake {
         let mut watcher = Watcher::new(other);
         let mut state: HybridState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {
-            let shaking = Shaking { horizontal: ground, vertical: None };
+            let shaking = Shaking::level(ground);
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+        let shaking = Shaking::level(&Harmonics::QUIET);
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher;
         Seen {
@@ -247,10 +248,7 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 9] {
                 ..of(Engagement::Friction { capacity_ratio: 0.03 }, flywheel, rack)
             },
         ),
-        (
-            "ideal on a moving support",
-            Drivetrain { support: Support { amplification: 1.3 }, rack: guided, ..Drivetrain::default() },
-        ),
+        ("ideal on a moving support", Drivetrain { support: Support::amplified(1.3), rack: guided, ..Drivetrain::default() }),
     ]
 }
 
