@@ -150,6 +150,7 @@ def sources() -> dict[str, str]:
         "rack": "Rack",
         "actuation": "Actuation",
         "weight": "Weight",
+        "support_record": "SupportRecord",
     }
     structure = [table("Block", scene["block"], "block")]
     for key, name in inner.items():

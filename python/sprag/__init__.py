@@ -45,6 +45,7 @@ from ._tables import (
     Ricker,
     Sensors,
     Sine,
+    SupportRecord,
     Weight,
 )
 from .errors import BoardError, InputError, RunError
@@ -103,6 +104,7 @@ __all__ = [
     "Sine",
     "Situation",
     "Study",
+    "SupportRecord",
     "Weight",
     "Wish",
     "__version__",

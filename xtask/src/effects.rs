@@ -122,6 +122,12 @@ const ROWS: &[Row] = &[
     },
     Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
     Row { name: "support", set: &["PAIR,support_amplification=1.2}"], base: "clutched pair", kernel: "" },
+    Row {
+        name: "support, oscillator",
+        set: &["PAIR,support_frequency_hz=5.0,support_damping_ratio=0.05}"],
+        base: "clutched pair",
+        kernel: "",
+    },
     Row { name: "checks", set: &["PAIR}", "checks={}"], base: "clutched pair", kernel: "" },
     Row { name: "energy", set: &["PAIR}", "output.energy=true"], base: "clutched pair", kernel: "" },
     Row {

@@ -149,6 +149,15 @@ impl<S: Real> DeviceState<S> {
     }
 }
 
+/// Coefficients of an inertia force at the rack, with the sign of a resistance; 1/s².
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Push<S> {
+    /// Over ü_g/g.
+    pub ground: S,
+    /// Over (ü_s − ü_g)/g, through flywheels on a support of its own motion.
+    pub support: Option<S>,
+}
+
 /// Coefficients of one mode: the equations between two events are smooth with them. What a device does not have is zero here
 /// and not looked at by its type.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -157,8 +166,8 @@ pub struct ModeCoefficients<S> {
     pub direction: S,
     /// Σ k of what moves rigidly with the rack.
     pub coupling: S,
-    /// Inertia force of ground and support on what moves rigidly with the rack, over ü_g/g, 1/s².
-    pub push: S,
+    /// Inertia force of ground and support on what moves rigidly with the rack.
+    pub push: Push<S>,
     /// Viscous resistance at the rack, 1/s.
     pub viscous: S,
     /// Dry resistance at the rack with the sign of the motion, 1/s².

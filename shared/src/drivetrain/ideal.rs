@@ -21,7 +21,7 @@ impl<S: Real> Transmission<S, 0, 0> for Alone {
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 0>) -> (V, [V; 0]) {
-        (at.body.driving_moment(&at.configuration, at.ground), [])
+        (at.body.driving_moment(&at.configuration, [at.ground[0], at.ground[1]]), [])
     }
 }
 

@@ -1,7 +1,8 @@
 //! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
-use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
+use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients, Push};
 use super::rise::{Line, whole};
+use crate::ground::Accelerations;
 use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -22,6 +23,8 @@ pub struct ScaledParameters<S> {
     /// Push of a support of its own motion, through a locked flywheel, on the rack: k n (ü_s − ü_g)/R over ü_g/g, which is
     /// σ n (f − 1) p²; 1/s².
     pub support_push: S,
+    /// That of a support whose motion comes beside the ground's, over (ü_s − ü_g)/g: σ n p²; 1/s².
+    pub relative_push: S,
     /// Viscous force of the rack, 1/s.
     pub rack_viscous: S,
     /// Dry friction of the rack, 1/s².
@@ -85,6 +88,7 @@ impl<S: Real> ScaledParameters<S> {
             rack_coupling: S::of(rack.guided_mass_ratio / (lambda * heavier)),
             rack_push: S::of(rack.guided_mass_ratio * p2 / heavier),
             support_push: S::ZERO,
+            relative_push: S::ZERO,
             rack_viscous: S::of(rack.viscous / (lambda * heavier)),
             rack_dry: S::of(rack.dry_ratio * p2 / heavier),
             load_friction: S::of(rack.load_friction),
@@ -102,17 +106,32 @@ impl<S: Real> ScaledParameters<S> {
         }
     }
 
-    /// On a support that moves horizontally with f times the ground's acceleration; `ratio` is that of [`Mount::support_ratio`].
+    /// On `support`, which moves horizontally; `ratio` is that of [`Mount::support_ratio`].
     ///
     /// [`Mount::support_ratio`]: crate::structure::mount::Mount::support_ratio
     pub fn on_support(self, support: Support, mass_ratio: f64, ratio: f64, p2: f64) -> ScaledParameters<S> {
-        ScaledParameters { support_push: S::of(mass_ratio * ratio * (support.amplification - 1.0) * p2), ..self }
+        ScaledParameters {
+            support_push: S::of(mass_ratio * ratio * (support.amplification - 1.0) * p2),
+            relative_push: S::of(if support.own_motion { mass_ratio * ratio * p2 } else { 0.0 }),
+            ..self
+        }
     }
 
-    /// Inertia force of ground and support on rack and flywheel if one flywheel were locked, with the sign of a resistance; over
-    /// ü_g/g, 1/s².
-    pub fn engaged_push(&self) -> S {
-        self.rack_push - self.support_push
+    /// Whether the support moves otherwise than the ground.
+    pub fn support_moves(&self) -> bool {
+        self.support_push != S::ZERO || self.relative_push != S::ZERO
+    }
+
+    /// Push of the support through one locked flywheel, under the accelerations `ground`; 1/s².
+    pub fn support_force(&self, ground: Accelerations<S>) -> S {
+        let force = self.support_push * ground[0];
+        if self.relative_push == S::ZERO { force } else { force + self.relative_push * ground[2] }
+    }
+
+    /// Inertia force of ground and support on rack and flywheel if one flywheel were locked, with the sign of a resistance.
+    pub fn engaged_push(&self) -> Push<S> {
+        let support = (self.relative_push != S::ZERO).then_some(-self.relative_push);
+        Push { ground: self.rack_push - self.support_push, support }
     }
 
     /// Capacity now and its growth.
@@ -129,12 +148,15 @@ impl<S: Real> ScaledParameters<S> {
     #[inline]
     pub fn law(&self, direction: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
         let mut law = ModeCoefficients::of(direction);
-        (law.coupling, law.push) = (self.rack_coupling, self.rack_push);
+        (law.coupling, law.push.ground) = (self.rack_coupling, self.rack_push);
         (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);
         for (i, wheel) in device.wheels.iter().enumerate() {
             if wheel.coupling == Coupling::Locked {
                 law.coupling = law.coupling + self.inertance;
-                law.push = law.push - self.support_push;
+                law.push.ground = law.push.ground - self.support_push;
+                if self.relative_push != S::ZERO {
+                    law.push.support = Some(law.push.support.unwrap_or(S::ZERO) - self.relative_push);
+                }
                 law.viscous = law.viscous + self.inertance * self.bearing_rate;
                 law.dry = law.dry + self.inertance * self.bearing_dry;
                 continue;

@@ -1,9 +1,10 @@
 //! Contract of a transmission: rates between events, guards, and answers to events.
 
-use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, UNKNOWNS};
+use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, Push, UNKNOWNS};
 use super::scaled_parameters::ScaledParameters;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
+use crate::ground::Accelerations;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;
@@ -23,8 +24,8 @@ pub struct EvaluationPoint<'a, S, B, P, V, const X: usize> {
     pub velocity: V,
     /// The device's own unknowns: speeds of the flywheels, then twists of the clutches.
     pub unknowns: [V; X],
-    /// Ground acceleration in g, horizontal and vertical.
-    pub ground: [V; 2],
+    /// Accelerations of ground and support.
+    pub ground: Accelerations<V>,
     /// Time since the mode's numbers were taken, s.
     pub clock: V,
 }
@@ -50,8 +51,8 @@ pub struct EventContext<'a, S> {
     pub rotation: S,
     /// θ̇, rad/s; a jolt changes it.
     pub velocity: S,
-    /// Ground acceleration in g, horizontal and vertical.
-    pub ground: [S; 2],
+    /// Accelerations of ground and support.
+    pub ground: Accelerations<S>,
     /// State of the device.
     pub device: &'a mut DeviceState<S>,
 }
@@ -255,14 +256,20 @@ pub fn resisted_acceleration<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>
     at.body.solve_acceleration(&at.configuration, moment, at.law.coupling, at.velocity)
 }
 
-/// D, with the inertia force `push` (over ü_g/g, 1/s²) of the motions of ground and support at the rack.
+/// D, with the inertia force `push` of the motions of ground and support at the rack.
 #[inline(always)]
-pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, push: Option<S>) -> V {
-    let moment = at.body.driving_moment(&at.configuration, at.ground);
-    match push {
-        Some(push) => moment - at.body.to_terminal(&at.configuration, at.ground[0].scale(push)),
-        None => moment,
+pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(
+    at: &PointOf<'_, S, B, V, X>,
+    push: Option<Push<S>>,
+) -> V {
+    let [horizontal, vertical, support] = at.ground;
+    let moment = at.body.driving_moment(&at.configuration, [horizontal, vertical]);
+    let Some(push) = push else { return moment };
+    let mut force = horizontal.scale(push.ground);
+    if let Some(push) = push.support {
+        force = force + support.scale(push);
     }
+    moment - at.body.to_terminal(&at.configuration, force)
 }
 
 /// sign · switching function of Eq. 10; a moving support pushes as through the flywheel that is asked for, so that engaging it does not
@@ -322,8 +329,8 @@ pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S
         }
         if locked {
             account.force[i] = locked_force(at, acceleration);
-            if parameters.support_push != S::ZERO {
-                account.force[i] = account.force[i] - parameters.support_push * at.ground[0];
+            if parameters.support_moves() {
+                account.force[i] = account.force[i] - parameters.support_force(at.ground);
             }
         }
     }

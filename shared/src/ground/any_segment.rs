@@ -1,6 +1,7 @@
 //! A ground segment chosen at run time.
 
-use super::{Elementary, GroundSegment, Harmonics, Linear, Ricker};
+use super::harmonic::Harmonic;
+use super::{DampedOscillation, Elementary, GroundSegment, Harmonics, Linear, Ricker};
 use crate::math::scalar::Real;
 
 /// A ground segment of any shape. It is chosen at every look, not before the loop: one loop for each structure and method is what
@@ -17,6 +18,8 @@ pub enum AnySegment<S> {
     ThreeSines(Harmonics<S, 3>),
     /// A Ricker wavelet.
     Ricker(Ricker<S>),
+    /// A free damped oscillation.
+    Damped(DampedOscillation<S>),
 }
 
 macro_rules! each {
@@ -30,6 +33,7 @@ macro_rules! each {
             AnySegment::Sine($inner) => $result,
             AnySegment::ThreeSines($inner) => $result,
             AnySegment::Ricker($inner) => $result,
+            AnySegment::Damped($inner) => $result,
         }
     };
 }
@@ -43,6 +47,24 @@ impl<S: Real> AnySegment<S> {
             AnySegment::Sine(sine) => sine.bound(),
             AnySegment::ThreeSines(sines) => sines.bound(),
             AnySegment::Ricker(wavelet) => wavelet.amplitude.abs(),
+            AnySegment::Damped(oscillation) => oscillation.bound(),
+        }
+    }
+
+    /// The other way round.
+    pub fn opposite(&self) -> AnySegment<S> {
+        fn waves<S: Real, const M: usize>(sines: &Harmonics<S, M>) -> Harmonics<S, M> {
+            Harmonics { terms: sines.terms.map(|term| Harmonic { amplitude: -term.amplitude, ..term }) }
+        }
+        match self {
+            AnySegment::Quiet => AnySegment::Quiet,
+            AnySegment::Linear(line) => AnySegment::Linear(Linear { start: -line.start, slope: -line.slope }),
+            AnySegment::Sine(sine) => AnySegment::Sine(waves(sine)),
+            AnySegment::ThreeSines(sines) => AnySegment::ThreeSines(waves(sines)),
+            AnySegment::Ricker(wavelet) => AnySegment::Ricker(Ricker { amplitude: -wavelet.amplitude, ..*wavelet }),
+            AnySegment::Damped(free) => {
+                AnySegment::Damped(DampedOscillation { real: -free.real, imaginary: -free.imaginary, ..*free })
+            }
         }
     }
 
@@ -54,6 +76,7 @@ impl<S: Real> AnySegment<S> {
             AnySegment::Sine(sine) => AnySegment::Sine(sine.to()),
             AnySegment::ThreeSines(sines) => AnySegment::ThreeSines(sines.to()),
             AnySegment::Ricker(wavelet) => AnySegment::Ricker(wavelet.to()),
+            AnySegment::Damped(oscillation) => AnySegment::Damped(oscillation.to()),
         }
     }
 }

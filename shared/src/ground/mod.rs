@@ -6,18 +6,24 @@
 //! The room imports `math` and `structure`.
 
 pub mod any_segment;
+pub mod damped;
 pub mod elementary;
 pub mod harmonic;
 pub mod linear;
 pub mod ricker;
 
 pub use any_segment::AnySegment;
+pub use damped::DampedOscillation;
 pub use elementary::Elementary;
 pub use harmonic::Harmonics;
 pub use linear::Linear;
 pub use ricker::Ricker;
 
 use crate::math::scalar::Real;
+
+/// Accelerations at an instant, in g: of the ground, horizontal and vertical, and of a support of its own motion, horizontal and relative to
+/// the ground.
+pub type Accelerations<S> = [S; 3];
 
 /// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
 pub trait GroundSegment<S: Real> {

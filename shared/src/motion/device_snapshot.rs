@@ -5,6 +5,7 @@
 
 use crate::drivetrain::transmission::Account;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 
@@ -13,8 +14,8 @@ use crate::method::dense_output::DenseOutput;
 pub struct Snapshot<S> {
     /// θ, θ̇, θ̈.
     pub motion: Motion<S>,
-    /// Ground acceleration, horizontal and vertical, in g.
-    pub ground: [S; 2],
+    /// Accelerations of ground and support.
+    pub ground: Accelerations<S>,
     /// ℓθ̇, the velocity of the rack over R; 1/s.
     pub terminal_velocity: S,
     /// Forces, speeds, energies and losses of the device.

@@ -24,11 +24,25 @@ pub struct Rack {
 pub struct Support {
     /// f = ü_s/ü_g, its horizontal acceleration at the device over the ground's; -10 to 10, 1 where it moves with the ground.
     pub amplification: f64,
+    /// It has a motion of its own instead, which comes beside the ground's ([`Shaking::support`]).
+    ///
+    /// [`Shaking::support`]: crate::motion::hybrid::mode_output::Shaking::support
+    pub own_motion: bool,
+}
+
+impl Support {
+    /// One that moves horizontally with `factor` times the ground's acceleration.
+    pub fn amplified(factor: f64) -> Support {
+        Support { amplification: factor, own_motion: false }
+    }
+
+    /// One of its own motion.
+    pub const MOVING: Support = Support { amplification: 1.0, own_motion: true };
 }
 
 impl Default for Support {
     fn default() -> Support {
-        Support { amplification: 1.0 }
+        Support::amplified(1.0)
     }
 }
 
@@ -158,7 +172,15 @@ impl Drivetrain {
                 || rack.viscous != 0.0
                 || rack.dry_ratio != 0.0
                 || rack.load_friction != 0.0;
-            require("support_amplification", amplification, !asks, "1 with friction or a flywheel that keeps its speed")?;
+            let moves = support.own_motion;
+            require(
+                "support_amplification",
+                amplification,
+                moves || !asks,
+                "1 with friction or a flywheel that keeps its speed",
+            )?;
+            require("support_motion", 1.0, !moves || !asks, "none with friction or a flywheel that keeps its speed")?;
+            require("support_amplification", amplification, !moves || amplification == 1.0, "1 beside a support's own motion")?;
         }
         let capacity = |ratio: f64| require("capacity_ratio", ratio, ratio > 0.0 && ratio <= 1e6, "above 0, to 1e6").map(|_| ());
         match self.engagement {

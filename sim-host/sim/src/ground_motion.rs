@@ -1,5 +1,6 @@
 //! A whole ground motion: smooth pieces in a row, of one pulse, one record, or the sum of several.
 
+pub mod oscillator;
 mod sum_segment;
 
 use sprag_shared::ground::{AnySegment, GroundSegment, Linear};
@@ -33,6 +34,12 @@ impl Component {
         }
         Component { start, pieces }
     }
+
+    /// The motion the other way round.
+    fn opposite(&self) -> Component {
+        let pieces = self.pieces.iter().map(|(end, segment)| (*end, segment.opposite())).collect();
+        Component { start: self.start, pieces }
+    }
 }
 
 /// A stretch between two kinks of the sum.
@@ -63,11 +70,15 @@ impl GroundMotion {
     /// The sums of `horizontal` and of `vertical` components, cut at the kinks of both, so that they have the same segments;
     /// where only one of them still moves, the other is quiet.
     pub fn aligned(horizontal: &[Component], vertical: &[Component]) -> [GroundMotion; 2] {
-        let mut times = kinks(horizontal);
-        times.extend(kinks(vertical));
+        GroundMotion::cut_together([horizontal, vertical])
+    }
+
+    /// The sum of each of `motions`, cut at the kinks of all.
+    fn cut_together<const N: usize>(motions: [&[Component]; N]) -> [GroundMotion; N] {
+        let mut times = motions.map(kinks).concat();
         times.sort_by(f64::total_cmp);
         times.dedup();
-        [horizontal, vertical].map(|components| GroundMotion::cut(components, &times))
+        motions.map(|components| GroundMotion::cut(components, &times))
     }
 
     /// The sum of `components` between one of the `times` and the next; every kink is among them.
@@ -91,12 +102,18 @@ impl GroundMotion {
             }
             segments.push(Segment { start, duration: end - start, shape: SumSegment::of(&parts), bound: 0.0 });
         }
+        let mut motion = GroundMotion { segments };
+        motion.bind();
+        motion
+    }
+
+    /// Sets the bounds of its segments.
+    fn bind(&mut self) {
         let mut bound = 0.0_f64;
-        for segment in segments.iter_mut().rev() {
+        for segment in self.segments.iter_mut().rev() {
             bound = bound.max(segment.shape.bound(segment.duration));
             segment.bound = bound;
         }
-        GroundMotion { segments }
     }
 
     /// Its segments, in order.

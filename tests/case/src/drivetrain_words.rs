@@ -63,7 +63,7 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         miss_seed: u64::from(input.word("miss_seed")?) | u64::from(input.word("the upper half of miss_seed")?) << 32,
     };
     let delay = input.kind("delay", &[Delay::Inertial, Delay::Transport])?;
-    let support = Support { amplification: input.number("support_amplification")? };
+    let support = Support::amplified(input.number("support_amplification")?);
     let time_constant = input.number("time_constant")?;
     let rack = Rack { load_friction: input.number("load_friction")?, ..rack };
     Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, time_constant, ..actuation }, support })

@@ -3,7 +3,7 @@
 use crate::codec::{Reader, Writer};
 use crate::{CaseError, Ground, GroundPiece, MOST_PIECES, Shape};
 use sprag_shared::ground::harmonic::Harmonic;
-use sprag_shared::ground::{Harmonics, Linear, Ricker};
+use sprag_shared::ground::{DampedOscillation, Harmonics, Linear, Ricker};
 use sprag_shared::structure::error::require;
 
 /// Numbers of a shape.
@@ -74,6 +74,7 @@ fn encode_shape(shape: &Shape, duration: Option<f32>, out: &mut Writer<'_>) -> R
         Shape::Linear(line) => (1, [line.start, line.slope, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         Shape::Sine(sine) => (2, sines(&sine.terms)),
         Shape::ThreeSines(three) => (3, sines(&three.terms)),
+        Shape::Damped(free) => (5, [free.real, free.imaginary, free.decay, free.frequency, 0.0, 0.0, 0.0, 0.0, 0.0]),
         Shape::Ricker(r) => (4, [r.amplitude, r.rate, r.centre, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
     };
     out.word(kind)?;
@@ -82,7 +83,7 @@ fn encode_shape(shape: &Shape, duration: Option<f32>, out: &mut Writer<'_>) -> R
 }
 
 fn shape_kind(input: &mut Reader<'_>) -> Result<u32, CaseError> {
-    input.kind("shape", &[0, 1, 2, 3, 4])
+    input.kind("shape", &[0, 1, 2, 3, 4, 5])
 }
 
 fn decode_shape(kind: u32, input: &mut Reader<'_>) -> Result<Shape, CaseError> {
@@ -98,6 +99,7 @@ fn decode_shape(kind: u32, input: &mut Reader<'_>) -> Result<Shape, CaseError> {
         1 => Shape::Linear(Linear { start: a, slope: b }),
         2 => Shape::Sine(Harmonics { terms: [sine(a, b, c)] }),
         3 => Shape::ThreeSines(Harmonics { terms: [sine(a, b, c), sine(d, e, f), sine(g, h, i)] }),
+        5 => Shape::Damped(DampedOscillation { real: a, imaginary: b, decay: c, frequency: d }),
         _ => Shape::Ricker(Ricker { amplitude: a, rate: b, centre: c }),
     })
 }

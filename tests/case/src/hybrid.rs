@@ -42,12 +42,15 @@ fn follow(
     let mut watch = Watch { observer, peaks: Peaks::default(), steps: 0 };
     let mut state = match *initially {
         Initially::Rest => machine.at_rest(),
-        Initially::Released { rotation, velocity } => machine.released_at(rotation, velocity, ground.first()),
+        Initially::Released { rotation, velocity } => {
+            let [horizontal, vertical] = ground.first();
+            machine.released_at(rotation, velocity, [horizontal, vertical, 0.0])
+        }
     };
     watch.peaks.rocked = state.motion.phase == Phase::Rocking;
     let mut follow = |horizontal: &Shape, vertical: Option<&Shape>, start: f32, duration: f32| -> Result<(), Stopped> {
         let limits = Limits { overturned: OVERTURNED, events: most_events(duration, *step) };
-        let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _) };
+        let shaking = Shaking { horizontal, vertical: vertical.map(|shape| shape as _), support: None };
         watch.peaks.origin = start;
         machine.advance(integrator, &mut state, shaking, duration, &limits, &mut watch)
     };

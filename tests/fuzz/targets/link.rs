@@ -2,11 +2,11 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use sprag_shared::control::controller::Controller;
 use sprag_shared::device::beginning::Beginning;
 use sprag_shared::device::{Answer, Device, Surroundings};
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, encode};
 use sprag_shared::settings::Settings;
-use sprag_shared::control::controller::Controller;
 use sprag_shared::settings::store::Store;
 
 #[path = "../../../shared/src/device/tests/flash.rs"]

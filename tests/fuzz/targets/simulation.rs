@@ -43,13 +43,18 @@ fuzz_target!(|input: &[u8]| -> Corpus {
             return Corpus::Reject;
         }
     };
-    if !bounded(&mut scene, ground.horizontal.duration()) {
+    let rings = scene.file.device.iter().filter_map(|device| device.support_oscillator()).map(|support| support.rings_for());
+    let shaking = ground.horizontal.duration() + rings.fold(0.0, f64::max);
+    if !bounded(&mut scene, shaking) {
         return Corpus::Reject;
     }
     match simulate(&scene, &ground, &Interrupt::default()) {
         Ok(runs) => {
-            let end = ground.horizontal.duration() + scene.free_time_s();
-            runs.iter().for_each(|run| check(run, end, &text));
+            for (index, run) in runs.iter().enumerate() {
+                // An oscillating support rings on after the ground.
+                let of_device = ground.of_device(&scene, index).expect("a run has its motion");
+                check(run, of_device.horizontal.duration() + scene.free_time_s(), &text);
+            }
         }
         Err(error) => {
             one_line(&error.to_string());
@@ -74,11 +79,11 @@ fn records(draw: &mut Draw<'_>, scene: &Scene) -> Result<GroundMotions, String> 
     let samples: Vec<f64> = (0..count).map(|_| peak * draw.share()).collect();
     let horizontal = [Component::record(0.0, step, samples.iter().copied())];
     if scene.file.vertical.is_empty() {
-        return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None, records: Vec::new() });
+        return Ok(GroundMotions::of(GroundMotion::sum(&horizontal), None));
     }
     let vertical = Component::record(0.0, step, samples.iter().map(|sample| 0.5 * sample / peak));
     let [horizontal, vertical] = GroundMotion::aligned(&horizontal, &[vertical]);
-    Ok(GroundMotions { horizontal, vertical: Some(vertical), records: Vec::new() })
+    Ok(GroundMotions::of(horizontal, Some(vertical)))
 }
 
 /// Makes a run over `shaking` (s) short enough, if it can be done with its free time and its step.
@@ -99,7 +104,7 @@ fn bounded(scene: &mut Scene, shaking: f64) -> bool {
 
 /// The fastest rate of the block and its devices, 1/s.
 fn fastest(scene: &Scene) -> f64 {
-    let devices = scene.devices.iter().map(|device| {
+    let devices = scene.devices.iter().zip(&scene.file.device).map(|(device, table)| {
         let (train, sigma) = (&device.drivetrain, device.device.mass_ratio);
         let clutch = match train.engagement {
             // Block and flywheel against each other.
@@ -112,7 +117,8 @@ fn fastest(scene: &Scene) -> f64 {
         // A clutch that answers late may switch as often as it can.
         let answer = train.actuation.engagement_delay + train.actuation.release_delay + train.actuation.dwell;
         let chatter = if answer > 0.0 { 1.0 / answer } else { 0.0 };
-        clutch + chatter + train.rack.viscous + train.flywheel.viscous_rate
+        let support = table.support_oscillator().map_or(0.0, |support| core::f64::consts::TAU * support.frequency_hz);
+        support + clutch + chatter + train.rack.viscous + train.flywheel.viscous_rate
     });
     devices.fold(scene.block.frequency_parameter(), f64::max)
 }

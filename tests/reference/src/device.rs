@@ -49,7 +49,7 @@ pub struct Device {
     pub consistent: f64,
     /// Mass of a guided rack, μ_g.
     pub guided: f64,
-    /// ẍ_s/ü_g: acceleration of the terminal on the support, relative to the ground and as travel of the other one, over the ground's.
+    /// r: acceleration of the terminal on the support, as travel of the other one, over the support's.
     pub support: f64,
     /// Viscous friction of the rack, 1/s.
     pub rack_viscous: f64,
@@ -125,7 +125,6 @@ impl Device {
             (false, false) => (0.0, rack),
             (true, true) => return Err("rack and flywheels both on the block".to_owned()),
         };
-        let beyond = table.support_amplification.unwrap_or(1.0) - 1.0;
         let height = match mount {
             Mount::CentreOfMass => bare.size * bare.slenderness.cos(),
             Mount::TyingPoint(height, _) => height,
@@ -189,8 +188,8 @@ impl Device {
             consistent,
             guided: per * guided,
             support: match mount {
-                Mount::CentreOfMass => beyond,
-                Mount::TyingPoint(_, pulley) => pulley * beyond,
+                Mount::CentreOfMass => 1.0,
+                Mount::TyingPoint(_, pulley) => pulley,
                 Mount::BaseCorners(_) => 0.0,
             },
             rack_viscous: per * viscous,

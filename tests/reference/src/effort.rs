@@ -34,7 +34,7 @@ impl Effort {
     pub fn largest_step(self, model: &Model) -> f64 {
         let (block, device) = (&model.block, &model.device);
         let mut rate = 5.0 * block.frequency_parameter();
-        rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()));
+        rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()).max(model.support.rate()));
         rate = rate.max(device.rack_viscous).max(2.0 * device.bearing_viscous);
         if let Coupling::Slip { damping, .. } = device.coupling {
             let (lever, _) = device.lever.at(1.0, 0.0);

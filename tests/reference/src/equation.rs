@@ -15,6 +15,7 @@ use crate::ground::Ground;
 use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::scatter::Scatter;
 use crate::step::{BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, TWIST, VELOCITY};
+use crate::support::Support;
 
 /// Block, device and ground.
 #[derive(Clone, Debug)]
@@ -37,15 +38,19 @@ pub struct Model {
     pub horizontal: Ground,
     /// v̈_g.
     pub vertical: Ground,
+    /// ü_s − ü_g.
+    pub support: Support,
 }
 
-/// ü_g and v̈_g, m/s².
+/// ü_g, v̈_g and ü_s − ü_g, m/s².
 #[derive(Clone, Copy, Debug)]
 pub struct Shaking {
     /// ü_g.
     pub horizontal: f64,
     /// v̈_g.
     pub vertical: f64,
+    /// ü_s − ü_g.
+    pub support: f64,
 }
 
 /// What a rotation decides.
@@ -64,7 +69,9 @@ pub struct Pose {
 impl Model {
     /// The ground at `time`, in the piece that holds `within`.
     pub fn shaking(&self, time: f64, within: f64) -> Shaking {
-        Shaking { horizontal: self.horizontal.at(time, within), vertical: self.vertical.at(time, within) }
+        let horizontal = self.horizontal.at(time, within);
+        let support = self.support.at(time, within, horizontal);
+        Shaking { horizontal, vertical: self.vertical.at(time, within), support }
     }
 
     /// The block at θ on side s.
@@ -83,7 +90,7 @@ impl Model {
 
     /// Moment of `locked` flywheels that the support drives, over mR².
     pub fn support_push(&self, pose: &Pose, shaking: Shaking, locked: f64) -> f64 {
-        locked * self.device.inertance * pose.lever * self.device.support * shaking.horizontal / self.block.size
+        locked * self.device.inertance * pose.lever * self.device.support * shaking.support / self.block.size
     }
 
     /// Acceleration of the terminals by weight, ground and support alone, over R: the `a` of Eq. 10, with the flywheel that it would engage

@@ -236,7 +236,7 @@ impl Model {
             (side, going.drive, going.armed) = (direction, direction, true);
         }
         going.block = BlockMode::Rocking { side, direction };
-        if state.rotation() == 0.0 && self.device.support != 0.0 {
+        if state.rotation() == 0.0 && self.support.moves() {
             // What lifts the block with open clutches is not the whole push of Eq. 10.
             self.look_at_drive(&mut going, shaking);
         }

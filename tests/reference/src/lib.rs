@@ -32,4 +32,5 @@ pub mod scene;
 pub mod simulate;
 pub mod sliding;
 pub mod step;
+pub mod support;
 pub mod tally;

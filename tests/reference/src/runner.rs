@@ -66,7 +66,7 @@ impl<'a> Runner<'a> {
             load: 1.0,
             slipped: None,
         };
-        let mut kinks = [model.horizontal.kinks(), model.vertical.kinks()].concat();
+        let mut kinks = [model.horizontal.kinks(), model.vertical.kinks(), model.support.kinks()].concat();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup_by(|later, sooner| *later - *sooner < 1e-12);
         let mut runner =
@@ -230,7 +230,8 @@ impl<'a> Runner<'a> {
             let before = self.shaking(stop);
             self.enter_piece();
             let after = self.shaking(stop);
-            let jump = (after.horizontal - before.horizontal).abs() + (after.vertical - before.vertical).abs();
+            let jumps = [after.horizontal - before.horizontal, after.vertical - before.vertical, after.support - before.support];
+            let jump: f64 = jumps.iter().map(|jump| jump.abs()).sum();
             if jump > 1e-9 {
                 if self.state.velocity() != 0.0 {
                     model.look_at_drive(&mut self.state, after);

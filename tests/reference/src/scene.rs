@@ -105,6 +105,9 @@ pub struct DeviceTable {
     #[serde(default)]
     pub weight: WeightTable,
     pub support_amplification: Option<f64>,
+    pub support_frequency_hz: Option<f64>,
+    pub support_damping_ratio: Option<f64>,
+    pub support_record: Option<MotionTable>,
 }
 
 /// One flywheel of a train (Eq. 9).
@@ -184,6 +187,8 @@ pub struct WeightTable {
 #[derive(Clone, Debug, Deserialize)]
 #[allow(missing_docs)]
 pub struct MotionTable {
+    /// Not said of a support's record.
+    #[serde(default)]
     pub motion: String,
     pub amplitude_ratio: Option<f64>,
     pub amplitude_g: Option<f64>,

@@ -12,6 +12,7 @@ use crate::ledger::Ledger;
 use crate::runner::Runner;
 use crate::scatter::Scatter;
 use crate::scene::Scene;
+use crate::support::Support;
 
 /// How a run ended, in Sprag's words.
 pub type Outcome = &'static str;
@@ -54,13 +55,15 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     let vertical = Ground::of(&scene.vertical, &bare, folder)?;
     let p = bare.frequency_parameter();
     let free = scene.run.free_time_s.unwrap_or(scene.run.free_time_ratio.unwrap_or(20.0) / p);
-    let end = horizontal.end().max(vertical.end()) + free;
+    let ends = horizontal.end().max(vertical.end());
+    let support = Support::of(&scene.device[index], scene, &bare, folder, (&horizontal, ends))?;
+    let end = ends.max(support.end()) + free;
     let unit = p * bare.slenderness;
     let rest_speed = scene.run.rest_speed_ratio.unwrap_or(1e-6) * unit;
-    let overturned = point_of_no_return(&block, &device, &horizontal, &vertical);
+    let overturned = point_of_no_return(&block, &device, (&horizontal, &vertical, &support));
     let counted = 1e-6 * block.frequency_parameter() * block.slenderness;
     let scatter = Scatter::of(&scene.block);
-    let model = Model { block, device, restitution, scatter, counted, rest_speed, overturned, horizontal, vertical };
+    let model = Model { block, device, restitution, scatter, counted, rest_speed, overturned, horizontal, vertical, support };
     let rotation = scene.block.initial_rotation_ratio * bare.slenderness;
     let velocity = scene.block.initial_velocity_ratio * unit;
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);
@@ -81,14 +84,14 @@ pub(crate) fn overturned_after(impacts: usize) -> Outcome {
 }
 
 /// |θ| from which no push or friction brings the block back. The full model lies on the ground at π/2.
-fn point_of_no_return(block: &Block, device: &Device, horizontal: &Ground, vertical: &Ground) -> f64 {
+fn point_of_no_return(block: &Block, device: &Device, (horizontal, vertical, support): (&Ground, &Ground, &Support)) -> f64 {
     if block.geometry == Geometry::Full {
         return std::f64::consts::FRAC_PI_2;
     }
     let lightest = (GRAVITY - vertical.bound()).max(0.05 * GRAVITY);
     let (lever, _) = device.lever.at(1.0, block.slenderness);
     let plates = if device.capacity.is_finite() { 2.0 * device.capacity } else { 0.0 };
-    let moved = device.guided + 2.0 * device.inertance * device.support.abs();
+    let moved = 2.0 * device.inertance * device.support.abs() * support.bound(horizontal.bound());
     let holds = device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates;
-    block.slenderness * 3.0 + 1.5 * (horizontal.bound() * (1.0 + moved * lever) + lever * holds) / lightest
+    block.slenderness * 3.0 + 1.5 * (horizontal.bound() * (1.0 + device.guided * lever) + lever * (moved + holds)) / lightest
 }

@@ -50,11 +50,11 @@ pub fn elastic_run<S: Real>(
     let limits = Limits { overturned: S::of(core::f64::consts::FRAC_PI_2), events: 10_000_000 };
     let duration = S::of(core::f64::consts::TAU) / S::of(frequency);
     let sine = Harmonics::sine(S::of(amplitude), S::of(frequency));
-    let shaking = Shaking { horizontal: &sine, vertical: None };
+    let shaking = Shaking::level(&sine);
     let mut done = machine.advance(&method, &mut state, shaking, duration, &limits, &mut watch);
     if done.is_ok() {
         watch.quiet = true;
-        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+        let shaking = Shaking::level(&Harmonics::QUIET);
         done = machine.advance(&method, &mut state, shaking, S::of(free_time), &limits, &mut watch);
     }
     let Watch { peak, steps, events, depth, gain, .. } = watch;

@@ -46,14 +46,7 @@ impl<S: Real> Segment<S> {
 
     /// The same motion towards the other side.
     pub fn mirrored(mut self) -> Segment<S> {
-        let mirror = |number: &mut S| *number = -*number;
-        match &mut self.ground {
-            AnySegment::Quiet => {}
-            AnySegment::Linear(line) => [&mut line.start, &mut line.slope].into_iter().for_each(mirror),
-            AnySegment::Sine(sine) => mirror(&mut sine.terms[0].amplitude),
-            AnySegment::ThreeSines(sines) => sines.terms.iter_mut().for_each(|term| mirror(&mut term.amplitude)),
-            AnySegment::Ricker(wavelet) => mirror(&mut wavelet.amplitude),
-        }
+        self.ground = self.ground.opposite();
         self
     }
 

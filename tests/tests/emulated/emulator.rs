@@ -238,7 +238,7 @@ fn effects() -> Vec<Effect> {
             "load friction of a rigid clutch",
             Drivetrain { rack: Rack { load_friction: 0.1, ..Rack::default() }, ..rigid },
         ),
-        Effect::of("moving support", Drivetrain { support: Support { amplification: 1.5 }, ..Drivetrain::default() }),
+        Effect::of("moving support", Drivetrain { support: Support::amplified(1.5), ..Drivetrain::default() }),
         Effect { restitution: balance, ..Effect::of("momentum balance", rigid) },
         Effect { scatter, ..Effect::of("impacts that differ", Drivetrain::default()) },
         Effect { restitution: balance, scatter, added_mass: gears, ..Effect::of("all together", all) },

@@ -28,7 +28,7 @@ fn a_block_that_stands_for_certain_stands_in_the_event_loop() {
             let last = 0.01 * f64::from(step);
             let line = Linear::between(0.9 * last * threshold, last * threshold, duration);
             let up = vertical.map(Linear::constant);
-            let shaking = Shaking { horizontal: &line, vertical: up.as_ref().map(|up| up as _) };
+            let shaking = Shaking { horizontal: &line, vertical: up.as_ref().map(|up| up as _), support: None };
             let (mut one, mut other) = (machine.at_rest(), machine.at_rest());
             let stands = machine.stands_through(&footing, &mut one, shaking, duration);
             machine.advance(&method, &mut other, shaking, duration, &limits, &mut ()).expect("a piece");

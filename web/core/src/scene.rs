@@ -64,7 +64,8 @@ impl PageScene {
     /// [`PageError`] for a scene that cannot be read, a record that is none, and one that is not among `files`.
     pub fn new(text: &str, files: &[File]) -> Result<PageScene, PageError> {
         let mut scene = Scene::parse(text, ORIGIN)?;
-        let motions = scene.file.ground.iter().chain(&scene.file.vertical);
+        let supports: Vec<_> = scene.file.support_records().collect();
+        let motions = scene.file.ground.iter().chain(&scene.file.vertical).chain(&supports);
         scene.given = motions.filter_map(|motion| given(motion, files)).collect::<Result<_, _>>()?;
         Ok(PageScene { scene, table: document::table(text, ORIGIN)?, grid: OnceCell::new() })
     }

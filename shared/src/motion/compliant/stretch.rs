@@ -165,6 +165,6 @@ impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
             device.spin[wheel] = terminal_velocity;
             device.stored = S::HALF * coupling * terminal_velocity * terminal_velocity;
         }
-        Snapshot { motion, ground: [push, weight - S::ONE], terminal_velocity, device }
+        Snapshot { motion, ground: [push, weight - S::ONE, S::ZERO], terminal_velocity, device }
     }
 }

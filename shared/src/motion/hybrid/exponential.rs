@@ -13,6 +13,7 @@ use super::mode_output::{KnownModeStart, ModeStart, Place};
 use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::drivetrain::transmission::Transmission;
 use crate::equation::body::Body;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 
 /// ÿ + 2a ẏ + Ω² y = B, from y and ẏ over `h`.
@@ -81,7 +82,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
     known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     frozen: &Frozen<S, X>,
-    (h, ground): (S, [S; 2]),
+    (h, ground): (S, Accelerations<S>),
 ) -> Place<S, X> {
     let law = known.start.law;
     let half_square = S::HALF * h * h;
@@ -139,7 +140,7 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
 pub(super) fn midpoint<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usize>(
     known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
-    (h, ground): (S, [S; 2]),
+    (h, ground): (S, Accelerations<S>),
 ) -> Place<S, X> {
     let law = ModeCoefficients { stiffness: [S::ZERO; 2], damping: [S::ZERO; 2], ..*known.start.law };
     let soft = ModeStart { law: &law, ..*known.start };

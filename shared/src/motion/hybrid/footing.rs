@@ -18,22 +18,25 @@ pub struct Footing<S> {
     push: S,
     /// Factor of 1 + v̈_g/g, 1/s²; the smaller of both sides.
     weight: S,
+    /// Factor of |ü_s − ü_g|/g, 1/s²; the larger of both sides.
+    support: S,
 }
 
 impl<S: Real> HybridSystem<S> {
     /// Footing of the block.
     pub fn footing(&self) -> Footing<S> {
-        let [(push, weight), (other, light)] = [Sign::Positive, Sign::Negative].map(|side| {
+        let parameters = &self.transmission.parameters;
+        let [(push, weight, arm), (other, light, lever)] = [Sign::Positive, Sign::Negative].map(|side| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let (horizontal, vertical) = self.body.factors(&configuration);
             let arm = self.body.arm(&configuration);
-            let parameters = &self.transmission.parameters;
             // However many flywheels a controller has engaged.
             let pushes = [0, 1, 2].map(|locked| parameters.rack_push - S::count(locked) * parameters.support_push);
             let push = pushes.map(|push| (horizontal - arm * push).abs());
-            (push[0].larger(push[1]).larger(push[2]), -side.times(vertical))
+            (push[0].larger(push[1]).larger(push[2]), -side.times(vertical), arm.abs())
         });
-        Footing { push: push.larger(other), weight: weight.smaller(light) }
+        let support = S::of(2.0) * parameters.relative_push.abs() * arm.larger(lever);
+        Footing { push: push.larger(other), weight: weight.smaller(light), support }
     }
 
     /// Lets a block stand through `duration` (s) of a ground segment where that is all that can happen: to the same bits as
@@ -56,7 +59,11 @@ impl<S: Real> HybridSystem<S> {
             Some(vertical) => first[1].smaller(last[1]) - bow(vertical.curvature_bound()),
             None => S::ZERO,
         };
-        if footing.push * push > S::of(CERTAIN) * footing.weight * (S::ONE + lift) {
+        let mut push = footing.push * push;
+        if let Some(support) = shaking.support {
+            push = push + footing.support * (first[2].abs().larger(last[2].abs()) + bow(support.curvature_bound()));
+        }
+        if push > S::of(CERTAIN) * footing.weight * (S::ONE + lift) {
             return false;
         }
         state.device.elapse(duration);

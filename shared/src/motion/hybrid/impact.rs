@@ -5,6 +5,7 @@ use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, GUARDS};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::body::Body;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, Observer};
@@ -111,11 +112,12 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A ground segment begins, with the acceleration `ground` (in g): it may have jumped between two of them.
-    pub fn ground_at_start(&self, state: &mut HybridState<S>, ground: [S; 2], observer: &mut dyn Observer<S>) {
-        let jump = (ground[0] - state.ground[0]).abs().larger((ground[1] - state.ground[1]).abs());
+    /// A ground segment begins, with the accelerations `ground`: they may have jumped between two of them.
+    pub fn ground_at_start(&self, state: &mut HybridState<S>, ground: Accelerations<S>, observer: &mut dyn Observer<S>) {
+        let largest = |of: Accelerations<S>| of[0].abs().larger(of[1].abs()).larger(of[2].abs());
+        let jump = largest(core::array::from_fn(|i| ground[i % 3] - state.ground[i % 3]));
         state.ground = ground;
-        let size = ground[0].abs().larger(ground[1].abs()).larger(S::EPSILON);
+        let size = largest(ground).larger(S::EPSILON);
         if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
             self.look_at_drive(state);
             state.fresh = [false; GUARDS];

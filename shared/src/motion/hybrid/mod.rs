@@ -32,6 +32,7 @@ use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
@@ -76,8 +77,8 @@ pub struct HybridState<S> {
     pub device: DeviceState<S>,
     /// Friction holds the block: tilted, at a turn, or on its base, where clutches engaged as it started.
     pub held: bool,
-    /// Ground acceleration at the end of the last ground segment, in g.
-    pub ground: [S; 2],
+    /// Accelerations of ground and support at the end of the last ground segment.
+    pub ground: Accelerations<S>,
     /// The guards that are zero here, by an event just handled.
     fresh: [bool; GUARDS],
     /// Breakaway: the moving moment has just passed the holding one.
@@ -118,8 +119,8 @@ impl<S: Real> HybridSystem<S> {
         state
     }
 
-    /// A block released at θ (rad) with θ̇ (rad/s) while the ground accelerates by `ground` (in g).
-    pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> HybridState<S> {
+    /// A block released at θ (rad) with θ̇ (rad/s) while ground and support accelerate by `ground`.
+    pub fn released_at(&self, rotation: S, velocity: S, ground: Accelerations<S>) -> HybridState<S> {
         let mut state = self.at_rest();
         let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
         state.motion = BlockState { rotation, velocity, phase: Phase::Rocking, side, ..BlockState::default() };

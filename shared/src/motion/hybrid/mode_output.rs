@@ -6,27 +6,34 @@ use crate::drivetrain::clutch_state::{ModeCoefficients, UNKNOWNS};
 use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
-use crate::ground::GroundSegment;
+use crate::ground::{Accelerations, GroundSegment};
 use crate::math::root::zero_shown;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 
-/// Horizontal and vertical ground motion over one ground segment.
+/// Motion of the ground, and of a support, over one ground segment.
 #[derive(Clone, Copy)]
 pub struct Shaking<'a, S> {
     /// Horizontal.
     pub horizontal: &'a dyn GroundSegment<S>,
     /// Vertical, for a body that has it.
     pub vertical: Option<&'a dyn GroundSegment<S>>,
+    /// Horizontal acceleration of the device's support relative to the ground, for a support of its own motion.
+    pub support: Option<&'a dyn GroundSegment<S>>,
 }
 
-impl<S: Real> Shaking<'_, S> {
-    /// Both accelerations in g at the local time `time` (s).
+impl<'a, S: Real> Shaking<'a, S> {
+    /// Horizontal motion alone.
+    pub fn level(horizontal: &'a dyn GroundSegment<S>) -> Shaking<'a, S> {
+        Shaking { horizontal, vertical: None, support: None }
+    }
+
+    /// The accelerations at the local time `time` (s).
     #[inline(always)]
-    pub fn at(&self, time: S) -> [S; 2] {
-        let horizontal = self.horizontal.acceleration(time);
-        [horizontal, self.vertical.map_or(S::ZERO, |vertical| vertical.acceleration(time))]
+    pub fn at(&self, time: S) -> Accelerations<S> {
+        let value = |segment: Option<&dyn GroundSegment<S>>| segment.map_or(S::ZERO, |segment| segment.acceleration(time));
+        [self.horizontal.acceleration(time), value(self.vertical), value(self.support)]
     }
 }
 
@@ -91,9 +98,9 @@ impl<S: Real> ModeStart<'_, S> {
         }
     }
 
-    /// The ground's acceleration (in g) `time` after the start.
+    /// The accelerations `time` after the start.
     #[inline(always)]
-    pub fn ground_at(&self, time: S) -> [S; 2] {
+    pub fn ground_at(&self, time: S) -> Accelerations<S> {
         self.shaking.at(self.time + time)
     }
 
@@ -146,8 +153,8 @@ impl<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G: usi
 pub struct Place<S, const X: usize> {
     /// Time since the start, s.
     pub time: S,
-    /// Ground acceleration in g, horizontal and vertical.
-    pub ground: [S; 2],
+    /// Accelerations of ground and support.
+    pub ground: Accelerations<S>,
     /// θ, rad.
     pub rotation: S,
     /// θ̇, rad/s.

@@ -4,6 +4,7 @@ use super::mode_output::{ModeOutput, Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
@@ -36,8 +37,8 @@ impl<S: Real, A: ModeOutput<S>> DeviceOutput<S> for Seen<'_, S, A> {
 pub(super) struct Still<'a, S> {
     pub(super) machine: &'a HybridSystem<S>,
     pub(super) state: &'a HybridState<S>,
-    /// Acceleration in g, horizontal and vertical, a time (s) after the start.
-    pub(super) ground: &'a dyn Fn(S) -> [S; 2],
+    /// The accelerations a time (s) after the start.
+    pub(super) ground: &'a dyn Fn(S) -> Accelerations<S>,
     pub(super) length: S,
 }
 

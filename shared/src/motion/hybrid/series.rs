@@ -8,6 +8,7 @@ use crate::drivetrain::clutch_state::{GUARDS, Guard, UNKNOWNS};
 use crate::drivetrain::transmission::{EvaluationPoint, Transmission};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::power_series::{DEVICE_SLOTS, Tape};
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -31,8 +32,8 @@ pub struct SeriesModeOutput<S, const N: usize> {
 struct Expansion<'a, S, const N: usize> {
     tape: &'a Tape<S, N, DEVICE_SLOTS>,
     output: &'a mut SeriesModeOutput<S, N>,
-    /// Ground acceleration in g, horizontal and vertical.
-    ground: &'a [[S; N]; 2],
+    /// Accelerations of ground and support.
+    ground: &'a Accelerations<[S; N]>,
     /// [`Series::tolerance`] in rad.
     tolerance: S,
     /// Size of a rotation that matters, rad.
@@ -50,11 +51,13 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
     ) -> Self::Output {
         // θ, θ̇, the ground twice and the clock, then the device's unknowns.
         const GIVEN: usize = 5;
-        let Expansion { tape, output, ground: [ground, vertical], tolerance, scale } = self;
+        let Expansion { tape, output, ground: [ground, vertical, support], tolerance, scale } = self;
         let start = known.start;
         let parameters = &start.system.transmission.parameters;
-        let shaken_up = start.shaking.vertical.is_some();
-        let next = Cell::new(GIVEN + X);
+        let (shaken_up, supported) = (start.shaking.vertical.is_some(), parameters.relative_push != S::ZERO);
+        // A support of its own motion is the last of what is given.
+        let given_count = GIVEN + X + usize::from(supported);
+        let next = Cell::new(given_count);
         let side = start.side.unit();
         output.series.motion.start(tape, start.place.rotation, start.place.velocity);
         for (i, unknown) in output.unknowns.iter_mut().enumerate().take(X) {
@@ -69,7 +72,10 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
                 tape.set(3, k, vertical[k]);
             }
             tape.set(4, k, if k == 1 { S::ONE } else { S::ZERO });
-            next.set(GIVEN + X);
+            if supported {
+                tape.set(GIVEN + X, k, support[k]);
+            }
+            next.set(given_count);
             let given = |slot| tape.given(&next, k, slot);
             let (theta, omega, push) = (given(0), given(1), given(2));
             let up = if shaken_up { given(3) } else { push };
@@ -80,7 +86,7 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
                 configuration: known.body.configuration(side, theta),
                 velocity: omega,
                 unknowns: core::array::from_fn(|i| given(GIVEN + i)),
-                ground: [push, up],
+                ground: [push, up, if supported { given(GIVEN + X) } else { push }],
                 clock: given(4),
             };
             let (acceleration, rates) = known.transmission.flow(&at);
@@ -93,6 +99,9 @@ impl<S: Real, const N: usize> WithModeStart<S> for Expansion<'_, S, N> {
             let mut term = truncation.term(rotation, ground[k]);
             if shaken_up {
                 term = term.larger((vertical[k] * truncation.power).abs());
+            }
+            if supported {
+                term = term.larger((support[k] * truncation.power).abs());
             }
             for (i, rate) in rates.iter().enumerate() {
                 let coefficient = rate.last() * reciprocal;
@@ -123,10 +132,13 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         let none = [S::ZERO; N];
         let mut output =
             SeriesModeOutput { series: StepSeries::new(start.length), unknowns: [none; UNKNOWNS], guards: [none; GUARDS] };
-        let mut ground = [none; 2];
+        let mut ground = [none; 3];
         start.shaking.horizontal.series(start.time, &mut ground[0]);
         if let Some(segment) = start.shaking.vertical {
             segment.series(start.time, &mut ground[1]);
+        }
+        if let Some(segment) = start.shaking.support {
+            segment.series(start.time, &mut ground[2]);
         }
         let scale = start.system.slenderness.larger(start.place.rotation.abs());
         let tolerance = self.tolerance * scale;

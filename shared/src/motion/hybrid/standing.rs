@@ -7,6 +7,7 @@ use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState, GUARDS};
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -52,13 +53,13 @@ impl<S: Real> HybridSystem<S> {
 
     /// The side to which the ground would lift a block on its base, and the threshold there.
     #[inline(never)]
-    fn lifted(&self, state: &HybridState<S>, ground: [S; 2]) -> (Sign, Threshold<S>) {
+    fn lifted(&self, state: &HybridState<S>, ground: Accelerations<S>) -> (Sign, Threshold<S>) {
         let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side));
         if positive.at(ground) >= negative.at(ground) { (Sign::Positive, positive) } else { (Sign::Negative, negative) }
     }
 
     /// The moment that lifts a block on its base, over its inertia about the toe; 1/s².
-    pub(super) fn uplifting(&self, state: &HybridState<S>, ground: [S; 2]) -> S {
+    pub(super) fn uplifting(&self, state: &HybridState<S>, ground: Accelerations<S>) -> S {
         self.lifted(state, ground).1.at(ground)
     }
 
@@ -72,7 +73,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn show_still(
         &self,
         state: &HybridState<S>,
-        ground: &dyn Fn(S) -> [S; 2],
+        ground: &dyn Fn(S) -> Accelerations<S>,
         time: S,
         length: S,
         observer: &mut dyn Observer<S>,
@@ -107,7 +108,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn stand(
         &self,
         state: &mut HybridState<S>,
-        ground: &dyn Fn(S) -> [S; 2],
+        ground: &dyn Fn(S) -> Accelerations<S>,
         time: S,
         end: S,
         observer: &mut dyn Observer<S>,
@@ -153,7 +154,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn uplift(
         &self,
         state: &mut HybridState<S>,
-        ground: [S; 2],
+        ground: Accelerations<S>,
         time: S,
         crossing: bool,
         observer: &mut dyn Observer<S>,
@@ -179,7 +180,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
-        if self.transmission.parameters.support_push != S::ZERO {
+        if self.transmission.parameters.support_moves() {
             // What lifts the block is not what it would meet with a flywheel engaged.
             self.look_at_drive(state);
             state.fresh[0] = false;

@@ -6,6 +6,7 @@ use crate::drivetrain::clutch_state::{Guard, UNKNOWNS};
 use crate::drivetrain::transmission::{Transmission, first};
 use crate::equation::body::Body;
 use crate::equation::motion::Motion;
+use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
@@ -20,7 +21,7 @@ fn advance<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const 
     scheme: Scheme,
     known: &KnownModeStart<'_, S, B, D, X, G>,
     (from, rates): (&Place<S, X>, &Rates<S, X>),
-    (h, ground): (S, [S; 2]),
+    (h, ground): (S, Accelerations<S>),
 ) -> Place<S, X> {
     let first = known.start.first(rates.0);
     match scheme {
@@ -39,7 +40,7 @@ fn runge_kutta_4<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, 
     known: &KnownModeStart<'_, S, B, D, X, G>,
     from: &Place<S, X>,
     (a1, r1): (S, &[S; X]),
-    (h, ground): (S, [S; 2]),
+    (h, ground): (S, Accelerations<S>),
 ) -> Place<S, X> {
     let half = S::HALF * h;
     let middle = known.start.ground_at(half);

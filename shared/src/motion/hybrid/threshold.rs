@@ -4,6 +4,7 @@ use super::mode_output::{Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
 use crate::equation::body::Body;
+use crate::ground::Accelerations;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -11,7 +12,7 @@ use crate::math::sign::Sign;
 /// Roundings within which a threshold counts as zero.
 const ROUNDINGS: f64 = 64.0;
 
-/// a ü_g/g + b (1 + v̈_g/g) + c + d t + e exp(−r t): the moment that moves the block to one side, over its inertia about the toe; 1/s².
+/// a ü_g/g + b (1 + v̈_g/g) + c + d t + e (ü_s − ü_g)/g + f exp(−r t): the moment that moves the block to one side, over its inertia about the toe; 1/s².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold<S> {
     horizontal: S,
@@ -19,7 +20,9 @@ pub(super) struct Threshold<S> {
     constant: S,
     /// d, the growth by the capacity of engaged plates, 1/s³.
     growth: S,
-    /// e, the push of flywheels through viscous slip, 1/s², and its rate r, 1/s.
+    /// e, of a support of its own motion.
+    support: S,
+    /// f, the push of flywheels through viscous slip, 1/s², and its rate r, 1/s.
     decay: (S, S),
 }
 
@@ -29,31 +32,39 @@ pub(super) fn earlier<S: Real, T>(instants: [Option<(S, T)>; 2]) -> Option<(S, T
 }
 
 impl<S: Real> Threshold<S> {
-    /// Its value for the ground acceleration in g.
-    pub(super) fn at(&self, ground: [S; 2]) -> S {
-        self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + (self.constant + self.decay.0)
+    /// Its value under the accelerations `ground`.
+    pub(super) fn at(&self, ground: Accelerations<S>) -> S {
+        let value = self.horizontal * ground[0] + self.vertical * (S::ONE + ground[1]) + (self.constant + self.decay.0);
+        if self.support == S::ZERO { value } else { value + self.support * ground[2] }
     }
 
     /// Bound of its rounding error.
-    fn rounding(&self, ground: [S; 2]) -> S {
+    fn rounding(&self, ground: Accelerations<S>) -> S {
         let terms = (self.horizontal * ground[0]).abs() + self.vertical.abs() * (S::ONE + ground[1]).abs() + self.constant.abs();
-        (terms + self.decay.0.abs()) * S::EPSILON * S::of(ROUNDINGS)
+        (terms + (self.support * ground[2]).abs() + self.decay.0.abs()) * S::EPSILON * S::of(ROUNDINGS)
     }
 
     /// Whether it is above zero, by more than rounding.
-    pub(super) fn is_exceeded(&self, ground: [S; 2]) -> bool {
+    pub(super) fn is_exceeded(&self, ground: Accelerations<S>) -> bool {
         self.at(ground) > self.rounding(ground)
     }
 
-    /// |ü_g|/g below which it stays under zero while 1 + v̈_g/g is at least `lightest` (above 0).
+    /// |ü_g|/g below which it stays under zero, on a support that moves with the ground, while 1 + v̈_g/g is at least `lightest` (above 0).
     pub(super) fn least_horizontal(&self, lightest: S) -> S {
         (-(self.vertical * lightest + (self.constant + self.decay.0.larger(S::ZERO))) / self.horizontal.abs()).larger(S::ZERO)
     }
 
     /// The moment that holds where this one moves.
     pub(super) fn opposite(&self) -> Threshold<S> {
-        let Threshold { horizontal, vertical, constant, growth, decay: (push, rate) } = *self;
-        Threshold { horizontal: -horizontal, vertical: -vertical, constant: -constant, growth: -growth, decay: (-push, rate) }
+        let Threshold { horizontal, vertical, constant, growth, support, decay: (push, rate) } = *self;
+        Threshold {
+            horizontal: -horizontal,
+            vertical: -vertical,
+            constant: -constant,
+            growth: -growth,
+            support: -support,
+            decay: (-push, rate),
+        }
     }
 
     /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
@@ -64,6 +75,9 @@ impl<S: Real> Threshold<S> {
             let mut slope = self.horizontal * shaking.horizontal.slope(t) + self.growth;
             if let Some(vertical) = shaking.vertical {
                 slope = slope + self.vertical * vertical.slope(t);
+            }
+            if let Some(support) = shaking.support {
+                slope = slope + self.support * support.slope(t);
             }
             let now = self.at(shaking.at(t)) + self.growth * (t - from);
             if push == S::ZERO {
@@ -83,6 +97,9 @@ impl<S: Real> Threshold<S> {
         if let Some(vertical) = shaking.vertical {
             curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
         }
+        if let Some(support) = shaking.support {
+            curvature = curvature + self.support.abs() * support.curvature_bound();
+        }
         curvature = curvature + push.abs() * rate * rate;
         let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
         // A breakaway within rounding of the segment's end belongs to the next segment.
@@ -101,7 +118,7 @@ impl<S: Real> HybridSystem<S> {
         let parameters = &self.transmission.parameters;
         let (mut decaying, mut rate) = (S::ZERO, S::ZERO);
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
-        let mut push = parameters.rack_push;
+        let (mut push, mut support) = (parameters.rack_push, S::ZERO);
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
         let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
             Coupling::Locked => true,
@@ -113,6 +130,7 @@ impl<S: Real> HybridSystem<S> {
             let (friction, growth) = parameters.standing_friction(wheel);
             dry = add(dry, (friction * (S::ONE + parameters.load_friction), growth));
             push = push - parameters.support_push;
+            support = support + parameters.relative_push;
         }
         let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
         if wheels.iter().any(pulls) {
@@ -136,6 +154,7 @@ impl<S: Real> HybridSystem<S> {
             vertical: sign.times(vertical),
             constant: -(arm * dry.0) - sign.times(arm * (force.0 + decaying)),
             growth: -(arm * dry.1) - sign.times(arm * force.1),
+            support: sign.times(arm * support),
             decay: (sign.times(arm * decaying), rate),
         }
     }

@@ -30,10 +30,10 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// The block has moved for `time` (s) without an event in its [`HybridSystem::mode`] to θ (`rotation`, rad) and θ̇ (`velocity`, rad/s), under
-    /// ground that accelerates by `ground` (in g) now. Open flywheels have coasted; those whose plates slip have the speeds `spins` (1/s).
+    /// ground that accelerates by `ground` (in g, horizontally and vertically) now; its support moves with that. Open flywheels have coasted; those whose plates slip have the speeds `spins` (1/s).
     pub fn has_moved(&self, state: &mut HybridState<S>, (rotation, velocity): (S, S), spins: [S; 2], time: S, ground: [S; 2]) {
         (state.motion.rotation, state.motion.velocity) = (rotation, velocity);
-        (state.fresh, state.free, state.ground) = ([false; GUARDS], false, ground);
+        (state.fresh, state.free, state.ground) = ([false; GUARDS], false, [ground[0], ground[1], S::ZERO]);
         let configuration = self.body.configuration(state.motion.side.unit(), rotation);
         let rack = self.body.to_terminal(&configuration, velocity);
         for (wheel, spin) in state.device.wheels.iter_mut().zip(spins) {
@@ -46,10 +46,11 @@ impl<S: Real> HybridSystem<S> {
         state.device.elapse(time);
     }
 
-    /// The block has stood for `time` (s) under ground that accelerates by `ground` (in g) now; flywheels have coasted.
+    /// The block has stood for `time` (s) under ground that accelerates by `ground` (in g, horizontally and vertically) now; flywheels have
+    /// coasted, and the support moves with the ground.
     pub fn has_stood(&self, state: &mut HybridState<S>, time: S, ground: [S; 2]) {
         self.idle(state, time);
-        state.ground = ground;
+        state.ground = [ground[0], ground[1], S::ZERO];
     }
 
     /// Smallest horizontal ground acceleration, to either side (in g), that lifts the standing block of `state` while 1 + v̈_g/g is at least
@@ -60,10 +61,10 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Bound of the push on the block, over its weight at its lightest, that decides where it can no longer return
-    /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g) and a 1 + v̈_g/g of at
-    /// least `lightest`: a light block falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed
+    /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g), accelerations of a
+    /// support of its own motion relative to the ground within ±`support` (in g), and a 1 + v̈_g/g of at least `lightest`: a light block falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed
     /// too, and friction may hold the block beyond.
-    pub fn push_bound(&self, bound: f64, lightest: f64) -> f64 {
+    pub fn push_bound(&self, bound: f64, support: f64, lightest: f64) -> f64 {
         let parameters = &self.transmission.parameters;
         let p2 = self.body.frequency_squared().to_f64();
         let lever = match self.body {
@@ -72,6 +73,7 @@ impl<S: Real> HybridSystem<S> {
         };
         let at_rack = parameters.rack_push.to_f64() + 2.0 * parameters.support_push.to_f64().abs();
         let (held, pushed) = (lever * parameters.rack_dry.to_f64() / p2, lever * at_rack / p2);
-        (bound * (1.0 + pushed) + held) / lightest
+        let by_support = 2.0 * lever * parameters.relative_push.to_f64().abs() / p2 * support;
+        (bound * (1.0 + pushed) + by_support + held) / lightest
     }
 }

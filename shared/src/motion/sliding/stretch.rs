@@ -160,7 +160,7 @@ impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
 
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let [push, weight] = self.ground.at(self.time + time);
-        let ground = [push, weight - S::ONE];
+        let ground = [push, weight - S::ONE, S::ZERO];
         Snapshot { motion: self.motion(time), ground, terminal_velocity: S::ZERO, device: Default::default() }
     }
 

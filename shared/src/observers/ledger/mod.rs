@@ -53,6 +53,8 @@ pub struct Account {
     pub rack_mass_ratio: f64,
     /// n (f − 1): acceleration of the terminals by the support's own motion over ü_g.
     pub support: f64,
+    /// n of a support of its own motion: acceleration of the terminals by it over ü_s − ü_g; else 0.
+    pub own_support: f64,
 }
 
 /// Observer that sums the [`Entries`] of a motion.
@@ -68,6 +70,7 @@ pub struct Ledger<S> {
     coupling: S,
     rack: S,
     support: S,
+    own_support: S,
     /// Potential energy at θ = α, which a block must pass to overturn by itself: p²(1 − cos α), slender ½p²α²; 1/s². It stands
     /// for mgR(1 − cos α) joules.
     pub barrier: S,
@@ -130,6 +133,7 @@ impl<S: Real> Ledger<S> {
             coupling: S::of(account.mass_ratio / block.inertia_ratio()),
             rack: S::of(account.rack_mass_ratio),
             support: S::of(account.mass_ratio * account.support),
+            own_support: S::of(account.mass_ratio * account.own_support),
             barrier: S::ZERO,
             last: None,
             since: Since::default(),
@@ -151,11 +155,12 @@ impl<S: Real> Ledger<S> {
     /// Work per time of ground and support on block, rack and flywheels.
     fn input(&self, side: Sign, snapshot: &Snapshot<S>) -> S {
         let (sin, cos) = self.geometry.sin_cos(side.times(self.slenderness) - snapshot.motion.rotation);
-        let [horizontal, vertical] = snapshot.ground;
+        let [horizontal, vertical, support] = snapshot.ground;
         let block = (horizontal * cos + vertical * sin) * snapshot.motion.velocity;
         let engaged = snapshot.device.engaged.map(u32::from).iter().sum();
         let rack = self.rack - S::count(engaged) * self.support;
-        -self.frequency_squared * (block + rack * horizontal * snapshot.terminal_velocity)
+        let own = S::count(engaged) * self.own_support * support;
+        -self.frequency_squared * (block + (rack * horizontal - own) * snapshot.terminal_velocity)
     }
 
     fn balance(&self, side: Sign, snapshot: &Snapshot<S>) -> Balance<S> {

@@ -225,7 +225,7 @@ impl<F: Fn(f64) -> Snapshot<f64>> DeviceOutput<f64> for Script<F> {
 fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<f64> {
     Snapshot {
         motion: Motion { rotation, velocity, acceleration: 0.0 },
-        ground: [0.0; 2],
+        ground: [0.0; 3],
         terminal_velocity: velocity,
         device: DeviceAccount {
             engaged: [engaged, false],
@@ -238,7 +238,7 @@ fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<
 
 fn scripted(clutching: Clutching, rack_mass_ratio: f64) -> Ledger<f64> {
     let block = Block::of_unit_frequency(0.3, 1.25).unwrap();
-    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio, support: 0.0 })
+    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio, support: 0.0, own_support: 0.0 })
 }
 
 fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>) {
@@ -328,7 +328,7 @@ fn powers_are_integrated_and_the_ground_works_on_block_and_rack() {
         let plain = snapshot(0.1 + 0.2 * time * time, 0.4 * time, 0.0, false);
         let spent = Spent { clutch: time, brake: 2.0, bearing: math::cos(time), rack: time * time * time, kinematics: -time };
         let device = DeviceAccount { spent, ..plain.device };
-        Snapshot { ground: [0.7, 0.2], terminal_velocity: 3.0 * time * time, device, ..plain }
+        Snapshot { ground: [0.7, 0.2, 0.0], terminal_velocity: 3.0 * time * time, device, ..plain }
     });
     let entries = ledger.entries;
     let (before, after) = (0.2_f64, 0.3 - 0.55);

@@ -7,6 +7,7 @@ use clap::Args;
 use sprag_report::output::{Claim, Digest, Formats, OutputError, ResultFolder, Subject};
 use sprag_report::part::Part;
 use sprag_sim::scene::Scene;
+use sprag_sim::scene::ground::GroundTable;
 use sprag_sim::scene::schema::SceneFile;
 
 use super::accuracy_arguments::AccuracyArguments;
@@ -89,7 +90,8 @@ pub(super) fn claim_of_scene<'a>(
     names: &'a [&'a str],
     records: &[PathBuf],
 ) -> Result<Claim<'a>, OutputError> {
-    let tables = file.ground.iter().chain(&file.vertical);
+    let supports: Vec<GroundTable> = file.support_records().collect();
+    let tables = file.ground.iter().chain(&file.vertical).chain(&supports);
     let of_scene = tables.filter_map(|table| Some((table.file.clone()?, table.path(&scene.folder)?)));
     let read: Vec<(PathBuf, PathBuf)> = of_scene.chain(records.iter().map(|path| (path.clone(), path.clone()))).collect();
     let subject = Subject::new(command, digests(&read)).with("scene", file)?;

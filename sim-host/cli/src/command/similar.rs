@@ -13,7 +13,7 @@ use sprag_sim::scene::Scene;
 use sprag_sim::scene::overrides::items;
 use sprag_sim::simulation::{DeviceRun, simulate};
 use sprag_studies::similarity::compare::{Departure, INSTANTS, Response};
-use sprag_studies::similarity::groups::{Group, groups};
+use sprag_studies::similarity::groups::{Group, groups, unequal};
 
 use super::context::{Completion, Context, Run};
 use super::out_arguments::{OutputArguments, claim_of_scene};
@@ -91,7 +91,7 @@ impl Run for SimilarArguments {
         folder.open(&claim)?;
         for changes in &self.with {
             let other = block(self, changes, Some(&blocks[0]), context.interrupt)?;
-            for name in unequal(&blocks[0], &other) {
+            for name in unequal(&blocks[0].groups, &other.groups) {
                 context.note(format_args!("--with {changes}: {name} is not that of the first block"));
             }
             blocks.push(other);
@@ -113,7 +113,7 @@ impl Run for SimilarArguments {
         let summaries = blocks.iter().map(|block| BlockSummary {
             block: &block.name,
             groups: &block.groups,
-            unequal_groups: unequal(first, block),
+            unequal_groups: unequal(&first.groups, &block.groups),
             runs: block.runs.iter().enumerate().map(|(device, run)| RunSummary { run, departure: of(block, device) }).collect(),
         });
         let answer = Answer { with: &self.with, blocks: summaries.collect() };
@@ -159,6 +159,7 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     overrides.extend(items(changes).map(str::to_owned));
     let mut scene = Scene::load(&arguments.scene.scene, &overrides)?;
     arguments.records.apply(&mut scene)?;
+    scene.refuse_support_records("blocks are compared by dimensionless groups, and a record of the support is none")?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {
         anyhow::bail!("--with {changes}: the block has another number of devices than the first");
     }
@@ -171,12 +172,6 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     let responses = runs.iter().map(|run| Response::of(&run.history, step)).collect();
     let name = if changes.is_empty() { "first block".to_owned() } else { items(changes).collect::<Vec<_>>().join(", ") };
     Ok(Block { name, groups: groups(&scene)?, scene, records: ground.records, runs, responses })
-}
-
-/// Names of the groups of `other` that are not those of `first`.
-fn unequal<'a>(first: &Block, other: &'a Block) -> Vec<&'a str> {
-    let same = |group: &Group| first.groups.iter().any(|known| known.equals(group));
-    other.groups.iter().filter(|group| !same(group)).map(|group| group.name.as_str()).collect()
 }
 
 fn figure(blocks: &[Block]) -> Result<String, PlotError> {

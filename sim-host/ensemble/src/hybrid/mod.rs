@@ -83,7 +83,7 @@ impl HybridBlock<'_> {
             AnyBody::Full(body) => body.consistent || system.transmission.kind == TransmissionKind::Alone,
         };
         let parameters = &system.transmission.parameters;
-        consistent && parameters.rack_push == 0.0 && parameters.support_push == 0.0 && !system.actuator.controlled
+        consistent && parameters.rack_push == 0.0 && !parameters.support_moves() && !system.actuator.controlled
     }
 
     /// Whether lanes may take it.
@@ -143,7 +143,7 @@ impl HybridBlock<'_> {
             // It lies on the ground.
             Geometry::Full => FRAC_PI_2,
             Geometry::Slender => {
-                Geometry::Slender.point_of_no_return(self.system.slenderness, self.system.push_bound(bound, self.lightest()))
+                Geometry::Slender.point_of_no_return(self.system.slenderness, self.system.push_bound(bound, 0.0, self.lightest()))
             }
         }
     }
@@ -172,7 +172,7 @@ impl HybridMotion {
     pub fn after(mut self, block: &HybridBlock<'_>, free_time: f64) -> Result<HybridMotion, Stopped> {
         if self.state.motion.phase != Phase::Overturned {
             let limits = Limits { overturned: block.overturned(0.0), events: MOST_EVENTS };
-            let quiet = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+            let quiet = Shaking::level(&Harmonics::QUIET);
             let (state, mut watch) = self.watched(block.samples.duration());
             hybrid(Method::Adaptive(TIGHT)).advance(block.system, state, quiet, free_time, &limits, &mut watch)?;
         }

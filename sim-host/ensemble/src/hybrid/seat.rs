@@ -77,7 +77,7 @@ impl<'a> Seat<'a> {
     fn step(&mut self, method: &dyn HybridLoop<f64>) -> Result<(), Stopped> {
         let [level, up] = self.lines();
         let vertical = self.block.vertical.map(|_| &up as &dyn GroundSegment<f64>);
-        let shaking = Shaking { horizontal: &level, vertical };
+        let shaking = Shaking { horizontal: &level, vertical, support: None };
         let limits = Limits { overturned: self.overturned(), events: MOST_EVENTS };
         let step = self.block.samples.step;
         let (state, mut watch) = self.motion.watched(step * self.sample as f64);

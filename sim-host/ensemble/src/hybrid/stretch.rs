@@ -286,7 +286,8 @@ impl<B: LaneBody> Stretch<B> {
                 configuration: body.configuration(self.side, given(0)),
                 velocity: given(1),
                 unknowns: [given(5), given(6)],
-                ground: [given(2), given(3)],
+                // The third is not looked at: supports move with the ground here.
+                ground: [given(2), given(3), given(2)],
                 clock: given(4),
             };
             let moment = driving_moment(&at, None);

@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 74] = [
+const QUANTITIES: [Quantity; 79] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -71,6 +71,11 @@ const QUANTITIES: [Quantity; 74] = [
     quantity("device.N.weight.rack_ratio", "mass of the rack over that of the block", "", ""),
     quantity("device.N.weight.rack_kg", "mass of the rack", "", "kg"),
     quantity("device.N.support_amplification", "acceleration of the support over the ground's", "", ""),
+    quantity("device.N.support_frequency_hz", "frequency of the support", "*f*_s", "Hz"),
+    quantity("device.N.support_damping_ratio", "damping ratio of the support", "ζ", ""),
+    quantity("device.N.support_record.time_step_s", "time step of the support's record", "", "s"),
+    quantity("device.N.support_record.resample_to_s", "time step of the support's resampled record", "", "s"),
+    quantity("device.N.support_record.scale", "scale of the support's record", "", ""),
     quantity("ground.N.amplitude_ratio", "amplitude", "*a*_g/@", ""),
     quantity("ground.N.amplitude_g", "amplitude", "*a*_g", "g"),
     quantity("ground.N.amplitude_m_s2", "amplitude", "*a*_g", "m/s²"),
@@ -251,7 +256,7 @@ mod tests {
         assert!(numeric.len() > 70, "{numeric:?}");
         for key in numeric {
             let title = title(key);
-            let markup = ["*a*_g", "*f*_g", "ω_g", "*m*_r", "*t*_d", "\\_"]
+            let markup = ["*a*_g", "*f*_g", "*f*_s", "ω_g", "*m*_r", "*t*_d", "\\_"]
                 .into_iter()
                 .fold(title.clone(), |title, known| title.replace(known, ""));
             assert!(!markup.contains('_') && !markup.is_empty(), "{key}: {title}");

@@ -1,7 +1,7 @@
 //! A scene over which loops can be closed.
 
 use sprag_shared::structure::device::DeviceKind;
-use sprag_shared::structure::drivetrain::{Engagement, Support};
+use sprag_shared::structure::drivetrain::Engagement;
 
 use super::LoopTask;
 use crate::interrupt::Interrupt;
@@ -50,9 +50,9 @@ impl LoopScene {
                 let reason = "an overrunning clutch takes no commands";
                 return Err(scene.key(&format!("device.{index}.engagement")).conflict(reason).into());
             }
-            if scene.devices[index].drivetrain.support != Support::default() {
+            if let Some(name) = scene.file.device[index].support_key() {
                 let reason = "the controller's encoder reads the rack against the support, whose displacement is not known";
-                return Err(scene.key(&format!("device.{index}.support_amplification")).conflict(reason).into());
+                return Err(scene.key(&format!("device.{index}.{name}")).conflict(reason).into());
             }
         }
         let ground = scene.ground_motions()?;
@@ -94,6 +94,10 @@ mod tests {
             (
                 "device.1={ kind='clutched-pair', mass_ratio=0.5, support_amplification=1.1 }",
                 "scene: device.1.support_amplification: ",
+            ),
+            (
+                "device.1={ kind='clutched-pair', mass_ratio=0.5, support_frequency_hz=5, support_damping_ratio=0.05 }",
+                "scene: device.1.support_frequency_hz: ",
             ),
         ] {
             let error = scene(change).unwrap_err().to_string();

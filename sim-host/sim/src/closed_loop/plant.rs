@@ -2,6 +2,7 @@
 
 use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::equation::body::Body;
+use sprag_shared::ground::Accelerations;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
@@ -53,8 +54,8 @@ pub struct Surroundings<'a> {
     pub ground: &'a GroundMotions,
     /// θ and θ̇ at the start, if the block is not at rest.
     pub released: Option<(f64, f64)>,
-    /// Ground acceleration at the start, in g.
-    pub ground_at_start: [f64; 2],
+    /// Accelerations at the start.
+    pub ground_at_start: Accelerations<f64>,
     /// Duration of the shocks that sensors see, s.
     pub shock: f64,
     /// From a command to the clutch's own delays, s.
@@ -123,7 +124,13 @@ impl<'a> Plant<'a> {
             return 0.0;
         }
         let (body, configuration) = (&self.machine.body, &self.posture.configuration);
-        body.switching(configuration, motion.velocity, body.driving_moment(configuration, self.state.ground))
+        body.switching(configuration, motion.velocity, body.driving_moment(configuration, self.ground()))
+    }
+
+    /// The ground's acceleration, horizontal and vertical, in g; its support moves with it.
+    fn ground(&self) -> [f64; 2] {
+        let [horizontal, vertical, _] = self.state.ground;
+        [horizontal, vertical]
     }
 
     fn segment(&self) -> Option<&'a Segment> {
@@ -137,7 +144,7 @@ impl<'a> Plant<'a> {
         let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
         self.pieces = Some((horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to()), up));
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
-        self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, self.lightest);
+        self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, 0.0, self.lightest);
     }
 
     /// The clutches before the motion.
@@ -178,7 +185,8 @@ impl<'a> Plant<'a> {
             if let Some((horizontal, vertical)) = &self.pieces {
                 let offset = self.time - start;
                 let (horizontal, vertical) = (horizontal.after(offset), vertical.as_ref().map(|piece| piece.after(offset)));
-                let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _) };
+                let shaking =
+                    Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _), support: None };
                 let duration = end - self.time;
                 if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
                     let mut both = Both(watcher, &mut self.shocks);
@@ -199,7 +207,7 @@ impl<'a> Plant<'a> {
             time: self.time,
             motion: self.state.motion,
             push: self.push(),
-            ground: self.state.ground,
+            ground: self.ground(),
             engaged: [wheels[0].coupling.is_engaged(), wheels[1].coupling.is_engaged()],
             spins: self.machine.spins_now(&self.state, &self.posture.configuration),
             missed: self.state.device.missed,

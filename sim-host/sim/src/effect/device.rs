@@ -24,15 +24,27 @@ pub const MOUNT: Effect = Effect {
 /// A support that moves on its own.
 pub const SUPPORT: Effect = Effect {
     name: "support",
-    summary: "a wall or frame that carries the device and amplifies or reduces the motion of the ground",
+    summary: "a wall or frame that carries the device and moves otherwise than the ground: amplified, as an oscillator, as recorded",
     equation: &[
-        "ü_s = f ü_g at the device; a flywheel feels the terminals against the support:",
+        "ü_s at the device: f ü_g; of an oscillator of ω and ζ, ü_s = −2ζω ż − ω² z with z̈ + 2ζω ż + ω² z = −ü_g; or a record",
+        "the device does not move it: its reaction is small against what the support weighs",
+        "a flywheel feels the terminals against the support:",
         "F = m_r (ẍ − n (ü_s − ü_g)),  ẍ relative to the ground",
-        "engaged, it adds κ σ ℓ n (f − 1) ü_g/R to the push of the ground (n: the pulley's ratio);",
+        "engaged, it adds κ σ ℓ n (ü_s − ü_g)/R to the push of the ground (n: the pulley's ratio);",
         "Eq. 10 looks at the acceleration of the terminals relative to the ground with that push",
     ],
-    source: "d'Alembert's force of an inerter between two moving terminals (Smith 2002)",
-    keys: &["device.N.support_amplification"],
+    source: "d'Alembert's force of an inerter between two moving terminals (Smith 2002); oscillator: Nigam and Jennings (1969)",
+    keys: &[
+        "device.N.support_amplification",
+        "device.N.support_frequency_hz",
+        "device.N.support_damping_ratio",
+        "device.N.support_record.file",
+        "device.N.support_record.units",
+        "device.N.support_record.time_step_s",
+        "device.N.support_record.component",
+        "device.N.support_record.resample_to_s",
+        "device.N.support_record.scale",
+    ],
     is_on: |scene, index| scene.devices[index].drivetrain.support != Support::default(),
 };
 

@@ -76,7 +76,8 @@ fn forces(subject: &Subject<'_>) -> String {
         text += " − μ_g ℓ ü_g/R";
     }
     if let (true, Some(locked)) = (moves(subject), locked(subject)) {
-        text += &format!(" + {locked} ℓ n (f − 1) ü_g/R");
+        let against = if subject.device.drivetrain.support.own_motion { "(ü_s − ü_g)" } else { "(f − 1) ü_g" };
+        text += &format!(" + {locked} ℓ n {against}/R");
     }
     text
 }
@@ -131,11 +132,22 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
         lines.push(format!("μ_g = {ratio}: mass over m of a rack on guides of the support"));
     }
     if moves(subject) {
-        lines.push(format!(
-            "f = ü_s/ü_g = {}: the support's acceleration over the ground's,  n = {}: the pulley's ratio",
-            number(drivetrain.support.amplification),
-            number(subject.loaded.device.mount.support_ratio().unwrap_or(0.0))
-        ));
+        let support = match subject.scene.file.device[subject.index].support_oscillator() {
+            Some(wall) => format!(
+                "ü_s = −2ζω ż − ω² z of a support with z̈ + 2ζω ż + ω² z = −ü_g,  ω = 2π {} Hz,  ζ = {}",
+                number(wall.frequency_hz),
+                number(wall.damping_ratio)
+            ),
+            None if drivetrain.support.own_motion => "ü_s: the record of the support".to_owned(),
+            None => {
+                format!(
+                    "f = ü_s/ü_g = {}: the support's acceleration over the ground's",
+                    number(drivetrain.support.amplification)
+                )
+            }
+        };
+        let pulley = number(subject.loaded.device.mount.support_ratio().unwrap_or(0.0));
+        lines.push(format!("{support},  n = {pulley}: the pulley's ratio"));
     }
     lines
 }

@@ -155,6 +155,9 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
     }
     let drivetrain = &subject.device.drivetrain;
     let mut lines = vec![uplift(subject)];
+    if drivetrain.support.own_motion && subject.device.device.kind == DeviceKind::Inerter {
+        lines.push("the support takes σ n ℓ (ü_s − ü_g) off that push".to_owned());
+    }
     lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));
     let scatter = subject.loaded.restitution_scatter;
     if scatter.is_on() {

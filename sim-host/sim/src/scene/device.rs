@@ -15,6 +15,7 @@ use sprag_shared::structure::mount::Mount;
 use super::drivetrain::{ActuationTable, ClutchTable, EngagementName, FlywheelLossesTable, RackTable};
 use super::error::SceneError;
 use super::schema::KeyOf;
+use super::support::SupportRecordTable;
 use super::weight::WeightTable;
 
 /// A device of a scene, every value within its range.
@@ -85,6 +86,7 @@ impl SceneDevice {
             mass_ratio: loaded.device.mass_ratio,
             rack_mass_ratio: self.drivetrain.rack.guided_mass_ratio / (1.0 + self.added_mass.mass_ratio),
             support: self.device.mount.support_ratio().unwrap_or(0.0) * (self.drivetrain.support.amplification - 1.0),
+            own_support: if self.drivetrain.support.own_motion { self.device.mount.support_ratio().unwrap_or(0.0) } else { 0.0 },
         }
     }
 }
@@ -139,6 +141,14 @@ pub struct DeviceTable {
     /// Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves with the ground.
     #[schemars(range(min = -10.0, max = 10.0), extend("default" = 1.0))]
     pub support_amplification: Option<f64>,
+    /// Natural frequency of a support that is a damped oscillator on the ground, so heavy that the device does not move it.
+    #[schemars(range(min = 0.1, max = 1e3))]
+    pub support_frequency_hz: Option<f64>,
+    /// Damping ratio of the oscillator that the support is.
+    #[schemars(range(min = 0.005, max = 0.9))]
+    pub support_damping_ratio: Option<f64>,
+    /// Recorded motion of the support itself.
+    pub support_record: Option<SupportRecordTable>,
 }
 
 impl DeviceTable {
@@ -162,6 +172,9 @@ impl DeviceTable {
             inertance_corner_hz: None,
             weight: None,
             support_amplification: None,
+            support_frequency_hz: None,
+            support_damping_ratio: None,
+            support_record: None,
         }
     }
 }
@@ -308,6 +321,9 @@ fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>
             ("inertance_corner_hz", table.inertance_corner_hz.is_some()),
             ("weight", table.weight.is_some()),
             ("support_amplification", table.support_amplification.is_some()),
+            ("support_frequency_hz", table.support_frequency_hz.is_some()),
+            ("support_damping_ratio", table.support_damping_ratio.is_some()),
+            ("support_record", table.support_record.is_some()),
         ];
         return match stray.iter().find(|(_, given)| *given) {
             Some((name, _)) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),

@@ -233,19 +233,49 @@ fn contradictory_effects_are_refused_with_the_reason() {
     let both = "device.1.weight={ flywheels_ratio = 0.1, flywheels_on = \"block\", rack_ratio = 0.1, rack_on = \"block\" }";
     refused(&[both], &["device.1.weight.rack_on", "nothing turns the flywheels"]);
     refused(&["device.1.mount=base-corners", "device.1.weight.rack_ratio=0.1"], &["device.1.weight.rack_ratio", "vertical rack"]);
-    let moves = "device.2.support_amplification=1.2";
-    refused(&["device.2.mount=base-corners", moves], &["device.2.support_amplification", "vertical devices"]);
-    for (item, name) in [
-        ("engagement=rigid", "engagement"),
-        ("clutch.capacity_ratio=1", "clutch"),
-        ("flywheel.viscous_rate_1_s=1", "flywheel"),
-        ("rack.dry_friction_ratio=0.1", "rack"),
+}
+
+/// A wall of 5 Hz that carries the pair.
+const WALL: [&str; 2] = ["device.2.support_frequency_hz=5", "device.2.support_damping_ratio=0.05"];
+
+#[test]
+fn supports_that_move_are_refused_where_their_velocity_counts() {
+    let recorded = ["device.2.support_record={ file = \"wall.csv\" }"];
+    for (key, moves) in [
+        ("device.2.support_amplification", &["device.2.support_amplification=1.2"][..]),
+        ("device.2.support_frequency_hz", &WALL),
+        ("device.2.support_record", &recorded),
     ] {
-        refused(
-            &[moves, &format!("device.2.{item}")],
-            &["device.2.support_amplification", name, "only its acceleration is known"],
-        );
+        assert!(parsed(moves).is_ok(), "{key}");
+        refused(&[&["device.2.mount=base-corners"], moves].concat(), &[key, "vertical devices"]);
+        for (item, name) in [
+            ("engagement=rigid", "engagement"),
+            ("clutch.capacity_ratio=1", "clutch"),
+            ("flywheel.viscous_rate_1_s=1", "flywheel"),
+            ("rack.dry_friction_ratio=0.1", "rack"),
+        ] {
+            let item = format!("device.2.{item}");
+            refused(&[moves, &[&item]].concat(), &[key, name, "only its acceleration is known"]);
+        }
     }
+}
+
+#[test]
+fn a_support_moves_in_one_way() {
+    refused(&WALL[..1], &["device.2.support_damping_ratio is missing"]);
+    refused(&WALL[1..], &["device.2.support_frequency_hz is missing"]);
+    for other in ["device.2.support_amplification=1", "device.2.support_record={ file = \"wall.csv\" }"] {
+        refused(&[WALL[0], WALL[1], other], &["give only one of", "support_frequency_hz"]);
+    }
+    refused(&["device.0.support_frequency_hz=5"], &["device.0.support_frequency_hz", "no inerter"]);
+    refused(&["device.2.support_frequency_hz=0.01", WALL[1]], &["device.2.support_frequency_hz is 0.01", "from 0.1 to 1000"]);
+    refused(&[WALL[0], "device.2.support_damping_ratio=1"], &["device.2.support_damping_ratio is 1", "from 0.005 to 0.9"]);
+    let second = "ground.1={ motion = \"sine\", amplitude_g = 0.1, frequency_hz = 2 }";
+    let recorded = "device.2.support_record={ file = \"wall.csv\" }";
+    refused(&[recorded, second], &["device.2.support_record", "one [[ground]] table"]);
+    let odd = "device.2.support_record={ file = \"wall.csv\", units = \"furlongs\" }";
+    refused(&[odd], &["device.2.support_record.units is \"furlongs\""]);
+    assert!(parsed(&[WALL[0], WALL[1], "device.2.actuation.dwell_s=1"]).is_ok());
 }
 
 #[test]
@@ -347,6 +377,7 @@ fn methods_for_ideal_devices_are_refused_beyond_them() {
         ("device.1.flywheel.viscous_rate_1_s=1", "device.1.flywheel"),
         ("device.2.actuation.dwell_s=1", "device.2.actuation"),
         ("device.1.support_amplification=1.2", "device.1.support_amplification"),
+        ("device.1.support_record={ file = \"wall.csv\" }", "device.1.support_record"),
         (vertical, "vertical"),
     ] {
         refused(&[taylor[0], taylor[1], item], &["accuracy.method", "taylor in f32", "ideal devices only", key]);

@@ -6,7 +6,7 @@ use serde_with::skip_serializing_none;
 use sprag_shared::math;
 use sprag_shared::structure::block::{Block, GRAVITY};
 use sprag_shared::structure::device::Device;
-use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::structure::mount::Mount;
 
 use super::device::{DeviceTable, Kind};
@@ -266,35 +266,10 @@ impl DeviceTable {
             ("flywheel", drivetrain.flywheel != ideal.flywheel),
             ("weight", drivetrain.rack.guided_mass_ratio != 0.0),
             ("rack", drivetrain.rack != ideal.rack),
-            ("support_amplification", drivetrain.support != ideal.support),
+            (self.support_key().unwrap_or("support_amplification"), drivetrain.support != ideal.support),
         ]
         .into_iter()
         .find_map(|(name, is_on)| is_on.then_some(name))
-    }
-
-    /// Where it moves on its own, friction and flywheels with a speed of their own would need its velocity too.
-    fn support(&self, drivetrain: &Drivetrain, device: &Device, key: &KeyOf<'_>) -> Result<Support, SceneError> {
-        let support = self.support_amplification.map_or_else(Support::default, |amplification| Support { amplification });
-        let refused = |reason: &str| Err(key("support_amplification").conflict(reason));
-        if support == Support::default() {
-            return Ok(support);
-        }
-        if let Mount::BaseCorners { .. } = device.mount {
-            return refused("a support that moves horizontally does not move vertical devices at the base corners");
-        }
-        let ideal = Drivetrain::default();
-        let moved = [
-            ("engagement, clutch or inertance_corner_hz", drivetrain.engagement != ideal.engagement),
-            ("flywheel", drivetrain.flywheel != ideal.flywheel),
-            ("rack", drivetrain.rack != ideal.rack),
-        ];
-        match moved.iter().find(|(_, is_on)| *is_on) {
-            Some((name, _)) => refused(&format!(
-                "friction and flywheels with a speed of their own, here by {name}, move against the support, and only its \
-                 acceleration is known"
-            )),
-            None => Ok(support),
-        }
     }
 
     /// Viscous slip in the place of a clutch's other properties.
@@ -396,6 +371,7 @@ impl DeviceTable {
             "brake_deceleration" => "flywheel.brake_deceleration_m_s2".to_owned(),
             "miss_probability" => "actuation.miss_probability".to_owned(),
             "support_amplification" => parameter.to_owned(),
+            "support_motion" => self.support_key().unwrap_or(parameter).to_owned(),
             time => format!("actuation.{time}_s"),
         }
     }

@@ -16,6 +16,7 @@ mod plain_block;
 pub mod schema;
 pub mod sensors;
 pub mod sliding;
+pub mod support;
 mod warnings;
 pub mod weight;
 
@@ -164,7 +165,7 @@ impl Scene {
         if file.ground.is_empty() && file.block.initial_rotation_ratio == 0.0 && file.block.initial_velocity_ratio == 0.0 {
             return Err(key("ground").missing("a [[ground]] table, or block.initial_rotation_ratio for free rocking"));
         }
-        Ok(Scene {
+        let scene = Scene {
             file,
             devices,
             block,
@@ -173,7 +174,9 @@ impl Scene {
             folder: PathBuf::new(),
             given: Arc::default(),
             overturned_at: OverturnedAt::default(),
-        })
+        };
+        scene.check_support_records()?;
+        Ok(scene)
     }
 
     /// The block with device number `index` (below the number of devices).

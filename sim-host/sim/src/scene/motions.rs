@@ -1,24 +1,51 @@
 //! The ground motion of a scene: its `[[ground]]` and `[[vertical]]` tables, read and summed.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use super::Scene;
 use super::error::{KeyPath, SceneError};
 use super::ground::{Direction, GroundError, GroundTable, Motion};
+use super::support::SupportRecordTable;
+use crate::ground_motion::oscillator::Beside;
 use crate::ground_motion::{Component, GroundMotion};
 use crate::record::{Record, RecordSummary};
 
 const NEEDS_RECORD: &str = "a record from the command line needs a [[ground]] table with motion = \"record\"";
 
-/// How the ground moves, in both directions.
-#[derive(Clone, Debug)]
+/// How the ground moves, in both directions, and a support on it.
+#[derive(Clone, Debug, Default)]
 pub struct GroundMotions {
     /// ü_g.
     pub horizontal: GroundMotion,
     /// v̈_g, positive upwards, if the scene has one; its segments are those of the horizontal motion.
     pub vertical: Option<GroundMotion>,
-    /// The records that were read for it, the vertical ones last.
+    /// ü_s − ü_g, for a device whose support has a motion of its own ([`GroundMotions::of_device`]); its segments are those of the others.
+    pub support: Option<GroundMotion>,
+    /// The motions beside supports that have records of their own.
+    supported: Vec<(SupportRecordTable, Beside)>,
+    /// The records that were read for it, the horizontal ones first, those of supports last.
     pub records: Vec<RecordSummary>,
+}
+
+impl GroundMotions {
+    /// Of motions with the same segments, without records.
+    pub fn of(horizontal: GroundMotion, vertical: Option<GroundMotion>) -> GroundMotions {
+        GroundMotions { horizontal, vertical, ..GroundMotions::default() }
+    }
+
+    /// Those of device number `index` of `scene`, whose support may move on its own; None where its support has a record that is not one
+    /// beside this ground.
+    pub fn of_device(&self, scene: &Scene, index: usize) -> Option<Cow<'_, GroundMotions>> {
+        let moves = scene.devices.get(index).is_some_and(|device| device.drivetrain.support.own_motion);
+        let Some(table) = scene.file.device.get(index).filter(|_| moves) else { return Some(Cow::Borrowed(self)) };
+        let beside = match (table.support_oscillator(), &table.support_record) {
+            (Some(oscillator), _) => oscillator.beside(&self.horizontal, self.vertical.as_ref()),
+            (None, record) => self.supported.iter().find(|(known, _)| Some(known) == record.as_ref())?.1.clone(),
+        };
+        let Beside { horizontal, vertical, support } = beside;
+        Some(Cow::Owned(GroundMotions { horizontal, vertical, support: Some(support), ..GroundMotions::default() }))
+    }
 }
 
 impl Scene {
@@ -29,12 +56,15 @@ impl Scene {
     /// ground away from under the block (1 + v̈_g/g ≤ 0).
     pub fn ground_motions(&self) -> Result<GroundMotions, GroundError> {
         let mut records = Vec::new();
-        let horizontal = self.components(Direction::Horizontal, &mut records)?;
+        let level = self.components(Direction::Horizontal, &mut records)?;
         if self.file.vertical.is_empty() {
-            return Ok(GroundMotions { horizontal: GroundMotion::sum(&horizontal), vertical: None, records });
+            let supported = self.supported(&level, None, &mut records)?;
+            let horizontal = GroundMotion::sum(&level);
+            return Ok(GroundMotions { horizontal, supported, records, ..GroundMotions::default() });
         }
-        let vertical = self.components(Direction::Vertical, &mut records)?;
-        let [horizontal, vertical] = GroundMotion::aligned(&horizontal, &vertical);
+        let up = self.components(Direction::Vertical, &mut records)?;
+        let supported = self.supported(&level, Some(&up), &mut records)?;
+        let [horizontal, vertical] = GroundMotion::aligned(&level, &up);
         let (lowest, time) = vertical.lowest();
         if 1.0 + lowest <= 0.0 {
             let [weight, time] = [1.0 + lowest, time].map(|value| (value * 1e4).round() / 1e4);
@@ -43,7 +73,17 @@ impl Scene {
             );
             return Err(self.key("vertical").conflict(&reason).into());
         }
-        Ok(GroundMotions { horizontal, vertical: Some(vertical), records })
+        Ok(GroundMotions { horizontal, vertical: Some(vertical), supported, records, ..GroundMotions::default() })
+    }
+
+    fn supported(
+        &self,
+        horizontal: &[Component],
+        vertical: Option<&[Component]>,
+        records: &mut Vec<RecordSummary>,
+    ) -> Result<Vec<(SupportRecordTable, Beside)>, GroundError> {
+        let of = |(table, support): (SupportRecordTable, Component)| (table, Beside::recorded(horizontal, vertical, &support));
+        Ok(self.support_records(records)?.into_iter().map(of).collect())
     }
 
     /// What its record files hold.
@@ -54,6 +94,7 @@ impl Scene {
         let mut records = Vec::new();
         self.components(Direction::Horizontal, &mut records)?;
         self.components(Direction::Vertical, &mut records)?;
+        self.support_records(&mut records)?;
         Ok(records)
     }
 
@@ -88,8 +129,10 @@ impl Scene {
     /// Puts `file` in the place of the scene's record.
     ///
     /// # Errors
-    /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record".
+    /// [`SceneError::Missing`] when the scene has no `[[ground]]` table of motion "record"; a conflict where a support has a record of its
+    /// own, which belongs to the other.
     pub fn use_record(&mut self, file: &Path) -> Result<(), SceneError> {
+        self.refuse_support_records("another record of the ground has no motion of the support beside it")?;
         let missing = self.key("ground").missing(NEEDS_RECORD);
         replace_record(&mut self.file.ground, file).ok_or(missing)
     }

@@ -27,7 +27,10 @@ fn follow<S: Real>(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
     let mut state = match task.released() {
-        Some((rotation, velocity)) => system.released_at(S::of(rotation), S::of(velocity), task.ground_at_start().map(S::of)),
+        Some((rotation, velocity)) => {
+            let [along, up, _] = task.ground_at_start().map(S::of);
+            system.released_at(S::of(rotation), S::of(velocity), [along, up])
+        }
         None => system.at_rest(),
     };
     let mut watchers = task.watchers::<S>(&loaded)?;

@@ -53,6 +53,8 @@ pub struct Course<'a> {
     pub ground: &'a GroundMotion,
     /// The vertical one, with the same segments.
     pub vertical: Option<&'a GroundMotion>,
+    /// That of the device's support relative to the ground, with the same segments, if it moves on its own.
+    pub support: Option<&'a GroundMotion>,
     /// Time after it, s.
     pub free_time: f64,
     /// When a block counts as overturned.
@@ -62,7 +64,15 @@ pub struct Course<'a> {
 impl<'a> Course<'a> {
     /// That of `structure`, as it is loaded, over ground that moves horizontally.
     pub fn of(structure: &'a Structure, ground: &'a GroundMotion, free_time: f64, overturning: Overturning) -> Course<'a> {
-        Course { block: &structure.block, geometry: structure.geometry, ground, vertical: None, free_time, overturning }
+        Course {
+            block: &structure.block,
+            geometry: structure.geometry,
+            ground,
+            vertical: None,
+            support: None,
+            free_time,
+            overturning,
+        }
     }
 
     /// |θ| (rad) at which an outward motion counts as overturned while the ground stays within `bound` (in g).
@@ -80,8 +90,8 @@ impl<'a> Course<'a> {
     }
 
     /// As [`Course::angle`], for a device ([`HybridSystem::push_bound`]).
-    pub fn machine_angle<S: Real>(&self, machine: &HybridSystem<S>, bound: f64, lightest: f64) -> S {
-        self.angle(machine.push_bound(bound, lightest))
+    pub fn machine_angle<S: Real>(&self, machine: &HybridSystem<S>, bound: f64, support: f64, lightest: f64) -> S {
+        self.angle(machine.push_bound(bound, support, lightest))
     }
 
     pub(super) fn limits<S: Real>(&self, bound: f64) -> Limits<S> {
@@ -146,8 +156,11 @@ impl<'a> Course<'a> {
         O: Observer<S> + Segmented,
     {
         let lightest = self.lightest();
-        let limits = |bound: f64| Limits { events: MOST_EVENTS, overturned: self.machine_angle(machine, bound, lightest) };
-        let vertical = self.vertical.map(GroundMotion::segments);
+        let limits = |bound: f64, support: f64| Limits {
+            events: MOST_EVENTS,
+            overturned: self.machine_angle(machine, bound, support, lightest),
+        };
+        let [vertical, support] = [self.vertical, self.support].map(|motion| motion.map(GroundMotion::segments));
         for (index, segment) in self.ground.segments().iter().enumerate() {
             if state.motion.phase == Phase::Overturned || !continues() {
                 return Ok(());
@@ -155,16 +168,23 @@ impl<'a> Course<'a> {
             observer.segment(segment.start, Some(segment));
             let horizontal = segment.shape.to();
             let up = vertical.and_then(|segments| segments.get(index)).map(|segment| segment.shape.to());
-            let shaking = Shaking { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
-            let (duration, limits) = (S::of(segment.duration), limits(segment.bound));
+            let support = support.and_then(|segments| segments.get(index));
+            let moved = support.map(|segment| segment.shape.to());
+            let shaking = Shaking {
+                horizontal: &horizontal,
+                vertical: up.as_ref().map(|piece| piece as _),
+                support: moved.as_ref().map(|piece| piece as _),
+            };
+            let limits = limits(segment.bound, support.map_or(0.0, |segment| segment.bound));
+            let duration = S::of(segment.duration);
             integrator.advance(machine, state, shaking, duration, &limits, observer).map_err(|end| end.after(segment.start))?;
         }
         if state.motion.phase == Phase::Overturned || !continues() {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
-        let shaking = Shaking { horizontal: &SumSegment::QUIET, vertical: None };
-        let ended = integrator.advance(machine, state, shaking, S::of(self.free_time), &limits(0.0), observer);
+        let shaking = Shaking::level(&SumSegment::QUIET);
+        let ended = integrator.advance(machine, state, shaking, S::of(self.free_time), &limits(0.0, 0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
     }
 }

@@ -28,7 +28,7 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
     let course = task.course(&loaded.block);
     let mut state = BlockState::default();
     if let Some((rotation, velocity)) = task.released() {
-        let [ground, _] = task.ground_at_start();
+        let [ground, ..] = task.ground_at_start();
         state = system.released_at(S::of(rotation), S::of(velocity), S::of(ground));
     }
     let mut continues = || !task.interrupt.is_set();

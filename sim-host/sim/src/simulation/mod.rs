@@ -22,6 +22,8 @@ pub mod scatter;
 mod sliding;
 pub mod sliding_report;
 pub mod step_end;
+#[cfg(all(test, feature = "effects"))]
+mod support_tests;
 pub mod watchers;
 
 pub use device_run::{DeviceRun, ErrorReport};

@@ -1,6 +1,6 @@
 //! `simulate`: every device of a scene under its ground motion.
 
-use sprag_shared::ground::GroundSegment;
+use sprag_shared::ground::{Accelerations, GroundSegment};
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::state::Stopped;
 use sprag_shared::observers::checks::Checks;
@@ -66,6 +66,12 @@ pub enum RunError {
         /// s.
         duration: f64,
     },
+    /// The support of the device has a record, and not one beside this ground.
+    #[error("{device}: support_record belongs to the ground motion of the scene itself, and another takes its place here")]
+    OtherGround {
+        /// Device.
+        device: String,
+    },
     /// The program was built without effects.
     #[error("{device}: this program was built without effects")]
     NoEffects {
@@ -108,14 +114,16 @@ pub fn simulate_for_study(scene: &Scene, ground: &GroundMotions, interrupt: &Int
 }
 
 fn runs(scene: &Scene, ground: &GroundMotions, reports: bool, interrupt: &Interrupt) -> Result<Vec<DeviceRun>, RunError> {
-    let duration = ground.horizontal.duration() + scene.free_time_s();
+    let rings = scene.file.device.iter().filter_map(|device| device.support_oscillator()).map(|support| support.rings_for());
+    let duration = ground.horizontal.duration() + rings.fold(0.0, f64::max) + scene.free_time_s();
     let interval = scene.file.output.interval_s.unwrap_or((duration / SAMPLES).max(1e-9));
     if duration / interval > MOST_SAMPLES {
         return Err(RunError::TooManySamples { interval, duration });
     }
     let run = |index: usize| {
         let device = &scene.devices[index].name;
-        let task = Task { scene, ground, index, interval, reports, interrupt };
+        let ground = ground.of_device(scene, index).ok_or_else(|| RunError::OtherGround { device: device.clone() })?;
+        let task = Task { scene, ground: &ground, index, interval, reports, interrupt };
         let run = match scene.file.accuracy.level {
             Some(level) => task.answer(level),
             None => task.run(),
@@ -149,6 +157,7 @@ impl From<ParameterError> for Failure {
 #[derive(Clone, Copy)]
 pub(crate) struct Task<'a> {
     pub scene: &'a Scene,
+    /// Of the device.
     pub ground: &'a GroundMotions,
     pub index: usize,
     /// Between samples, s.
@@ -228,10 +237,11 @@ impl<'a> Task<'a> {
         (rotation != 0.0 || velocity != 0.0).then_some((rotation * alpha, velocity * p * alpha))
     }
 
-    /// Ground acceleration at the start, horizontal and vertical, in g.
-    pub fn ground_at_start(&self) -> [f64; 2] {
+    /// Accelerations of ground and support at the start.
+    pub fn ground_at_start(&self) -> Accelerations<f64> {
         let first = |motion: &GroundMotion| motion.segments().first().map_or(0.0, |segment| segment.shape.acceleration(0.0));
-        [first(&self.ground.horizontal), self.ground.vertical.as_ref().map_or(0.0, first)]
+        let GroundMotions { horizontal, vertical, support, .. } = self.ground;
+        [first(horizontal), vertical.as_ref().map_or(0.0, first), support.as_ref().map_or(0.0, first)]
     }
 
     /// What to follow; `block` is the loaded one.
@@ -241,6 +251,7 @@ impl<'a> Task<'a> {
             geometry: self.scene.geometry(),
             ground: &self.ground.horizontal,
             vertical: self.ground.vertical.as_ref(),
+            support: self.ground.support.as_ref(),
             free_time: self.scene.free_time_s(),
             overturning: match self.scene.overturned_at {
                 OverturnedAt::NoReturn => Overturning::Reached,

@@ -39,7 +39,7 @@ impl StudyRecord {
         let Record { acceleration_m_s2, time_step_s, .. } = &self.motion.record;
         let samples = acceleration_m_s2.iter().map(|a| factor * a / STANDARD_GRAVITY_M_S2);
         let component = ground_motion::Component::record(start_s, *time_step_s, samples);
-        GroundMotions { horizontal: GroundMotion::sum(&[component]), vertical: None, records: Vec::new() }
+        GroundMotions::of(GroundMotion::sum(&[component]), None)
     }
 }
 

@@ -208,7 +208,7 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         "Clutches are sized by torque: wear and drag of an open clutch are left out.{heat} Coils are sized by time; their power follows from the clutch that is bought."
     ));
     limit("One stage from rack to flywheel. A train of two needs a smaller disc and has a faster one.".to_owned());
-    if problem.scene.file.device.iter().any(|device| device.support_amplification.is_some()) {
+    if problem.scene.file.device.iter().any(|device| device.support_key().is_some()) {
         limit("Speed of the rack is that of the block: what the support moves on its own is not in it.".to_owned());
     }
     let friction = findings.lists.iter().filter_map(|list| list.friction_needed).reduce(f64::max);

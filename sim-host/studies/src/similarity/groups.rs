@@ -51,6 +51,14 @@ pub fn groups(scene: &Scene) -> Result<Vec<Group>, ParameterError> {
         let of = |symbol: &str| format!("{symbol} of {}", structure_name(scene, index));
         groups.push(Group::new(of("η"), structure.restitution()?));
         groups.push(Group::new(of("σ"), structure.device.mass_ratio));
+        let table = &scene.file.device[index];
+        if let Some(wall) = table.support_oscillator() {
+            groups.push(Group::new(of("ω_s/p"), wall.frequency_hz * TAU / p));
+            groups.push(Group::new(of("ζ_s"), wall.damping_ratio));
+        } else if table.support_key().is_some() {
+            // Of a record it has no value.
+            groups.push(Group::new(of("ü_s/ü_g"), table.support_amplification));
+        }
     }
     groups.push(Group::new("θ(0)/α".to_owned(), scene.file.block.initial_rotation_ratio));
     groups.push(Group::new("θ̇(0)/(pα)".to_owned(), scene.file.block.initial_velocity_ratio));
@@ -89,9 +97,42 @@ fn amplitude(table: &GroundTable, threshold: f64) -> Option<f64> {
     Some(ratio * table.scale)
 }
 
+/// Names of the groups that two blocks do not have in common with the same value.
+pub fn unequal<'a>(first: &'a [Group], other: &'a [Group]) -> Vec<&'a str> {
+    let same = |group: &&Group| !first.iter().any(|known| known.equals(group));
+    let mut names: Vec<&str> = other.iter().filter(same).map(|group| group.name.as_str()).collect();
+    let missing = first.iter().filter(|group| other.iter().all(|known| known.name != group.name));
+    names.extend(missing.map(|group| group.name.as_str()));
+    names
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The same wall is another one to another block; so is a wall to a block without one.
+    #[test]
+    fn supports_have_groups() {
+        let of = |size: f64, support: &str| {
+            let text = format!(
+                "block = {{ size_m = {size}, slenderness_deg = 10.0 }}\n\
+                 device = [{{ kind = 'inerter', mass_ratio = 0.5, {support} }}]\n\
+                 ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 3.0 }}]"
+            );
+            groups(&Scene::parse(&text, "scene").unwrap()).unwrap()
+        };
+        let wall = |hertz: f64| format!("support_frequency_hz = {hertz}, support_damping_ratio = 0.05");
+        let names = |one: &[Group], other: &[Group]| unequal(one, other).join(", ");
+        let first = of(2.0, &wall(5.0));
+        assert_eq!(names(&first, &of(2.0, &wall(5.0))), "");
+        assert_eq!(names(&first, &of(8.0, &wall(5.0))), "ω_s/p of device 0 (inerter)");
+        assert_eq!(names(&first, &of(8.0, &wall(2.5))), "");
+        let factor = of(2.0, "support_amplification = 1.2");
+        assert_eq!(names(&factor, &of(2.0, "support_amplification = 1.3")), "ü_s/ü_g of device 0 (inerter)");
+        for (one, other) in [(&factor, &of(2.0, "")), (&of(2.0, ""), &factor)] {
+            assert_eq!(names(one, other), "ü_s/ü_g of device 0 (inerter)");
+        }
+    }
 
     fn scene(block: &str, ground: &str) -> Scene {
         let text = format!(

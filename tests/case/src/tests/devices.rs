@@ -31,7 +31,7 @@ pub fn drivetrains() -> [Drivetrain; 10] {
         of(elastic(0.0, f64::INFINITY), flywheel),
         of(elastic(0.001953125, 0.03125), FlywheelLosses { brake_deceleration: f64::INFINITY, ..flywheel }),
         Drivetrain { actuation: Actuation { time_constant: 0.0625, ..Actuation::default() }, ..friction },
-        Drivetrain { support: Support { amplification: 1.25 }, ..Drivetrain::default() },
+        Drivetrain { support: Support::amplified(1.25), ..Drivetrain::default() },
         of(Engagement::Viscous { corner_frequency: 4.0 }, flywheel),
         Drivetrain { rack: Rack { load_friction: 0.125, ..rack }, ..of(Engagement::Rigid, flywheel) },
     ]
@@ -176,7 +176,7 @@ fn single_precision_follows_every_device() {
         let mut state = machine.at_rest();
         let limits = Limits { overturned: 1.5, events: 100_000 };
         let (push, lift) = (Harmonics::sine(0.1875, 4.0), Harmonics::sine(0.25, 16.0));
-        let shaking = Shaking { horizontal: &push, vertical: Some(&lift) };
+        let shaking = Shaking { horizontal: &push, vertical: Some(&lift), support: None };
         machine.advance(&Series::<f64, 16>::adaptive(1e-15), &mut state, shaking, 0.75, &limits, &mut ()).unwrap();
         let exact = state.motion.rotation;
         let methods: &[_] = match drivetrain.engagement {

@@ -58,7 +58,7 @@ const IDEAL: Drivetrain = Drivetrain {
     flywheel: NO_LOSSES,
     rack: NO_RACK,
     actuation: PROMPT,
-    support: Support { amplification: 1.0 },
+    support: Support { amplification: 1.0, own_motion: false },
 };
 const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
 const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0, load_friction: 0.0 };
@@ -129,7 +129,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     let Ok(block) = Block::new(2.0, f64::from(super::SLENDERNESS), RECTANGLE_INERTIA_RATIO) else { return Err(fmt::Error) };
     let pulse = black_box(Shape::Sine(Harmonics::sine(0.5, TAU)));
     let up = black_box(Shape::Sine(Harmonics::sine(0.2, 4.0 * TAU)));
-    let (level, both) = (Shaking { horizontal: &pulse, vertical: None }, Shaking { horizontal: &pulse, vertical: Some(&up) });
+    let (level, both) = (Shaking::level(&pulse), Shaking { vertical: Some(&up), ..Shaking::level(&pulse) });
     let integrator = FixedStep { scheme: Scheme::RungeKutta4, step: super::STEP };
     let midpoint = FixedStep { scheme: Scheme::ExponentialMidpoint, step: super::STEP };
     let (paper, consistent) = (body(false, false), body(true, false));

@@ -88,6 +88,17 @@ fn device(draw: &mut Draw<'_>, text: &mut String) -> bool {
             draw.number_or_zero(1e-6, 10.0)
         );
     }
+    if draw.seldom(4) {
+        let _ = match draw.below(2) {
+            0 => writeln!(text, "support_amplification = {:?}", 10.0 * draw.share()),
+            _ => writeln!(
+                text,
+                "support_frequency_hz = {:?}\nsupport_damping_ratio = {:?}",
+                draw.number(0.1, 1e3),
+                draw.number(0.005, 0.9)
+            ),
+        };
+    }
     let clutch = if kind == "inerter" { 0 } else { draw.below(7) };
     let brake = match draw.below(3) {
         _ if clutch < 2 || clutch == 3 => "0.0".to_owned(),

@@ -81,6 +81,7 @@ pub fn scene(seed: u64, number: u64) -> Generated {
     if random.chance(0.2) {
         motion::vertical(&mut text, &mut random);
     }
+    motion::support(&mut text, &mut files, &random, threshold);
     let free = random.between(2.0, 4.0);
     // With flywheels that spin while the block stands, what it was like to come to rest matters by about this ratio.
     let _ = writeln!(text, "\n[run]\nfree_time_s = {free}\nrest_speed_ratio = 1e-9");

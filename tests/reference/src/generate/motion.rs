@@ -52,6 +52,30 @@ pub fn horizontal(text: &mut String, files: &mut Vec<(String, String)>, random: 
     }
 }
 
+/// Some of the supports that move by a factor get an oscillator, or a record beside the only motion of the ground, in its place. A wavelet
+/// whose response Sprag follows by chords has none.
+pub fn support(text: &mut String, files: &mut Vec<(String, String)>, random: &Random, threshold: f64) {
+    let Some(line) = text.lines().find(|line| line.starts_with("support_amplification")).map(str::to_owned) else { return };
+    // Draws of its own, so that all others stay what they were.
+    let mut own = *random;
+    own = Random::new(own.next_u64() ^ 1);
+    let grounds = text.split("[[vertical]]").next().unwrap_or_default();
+    let (single, closed) = (grounds.matches("[[ground]]").count() == 1, !grounds.contains("ricker"));
+    let keys = match own.next_u64() % 3 {
+        0 if closed => format!(
+            "support_frequency_hz = {}\nsupport_damping_ratio = {}",
+            own.logarithmic(1.5, 15.0),
+            own.logarithmic(0.05, 0.4)
+        ),
+        1 if single => {
+            files.push(("support.csv".to_owned(), record(&mut own, 1.5 * threshold)));
+            format!("support_record = {{ file = \"support.csv\", scale = {} }}", own.between(-1.5, 1.5))
+        }
+        _ => return,
+    };
+    *text = text.replacen(&line, &keys, 1);
+}
+
 /// A vertical motion that leaves the block on the ground.
 pub fn vertical(text: &mut String, random: &mut Random) {
     let kind = random.pick(&["sine", "cosine", "ricker", "half-sine"]);

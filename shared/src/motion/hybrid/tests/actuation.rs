@@ -47,10 +47,10 @@ fn a_release_comes_late_by_its_delay() {
 /// When a clutch moves that is commanded to engage at 0 and to release 5 ms later, and what the last command wants, after 0.1 s.
 fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     machine.actuator.controlled = true;
-    let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
+    let mut state = machine.released_at(0.1, 0.0, [0.0; 3]);
     let mut nobody = ();
     let mut watcher = Watcher::new(&mut nobody);
-    let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+    let shaking = Shaking::level(&Harmonics::QUIET);
     let limits = pair(Geometry::Full, 1.0, 1.0).limits(true);
     for (wanted, until) in [([false, true], 0.005), ([false, false], 0.095)] {
         machine.order(&mut state, wanted, &mut watcher);
@@ -172,10 +172,10 @@ fn a_coil_drives_its_flywheel_by_an_exponential() {
     let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     let block = &structure.block;
     // Thrown outward, under a push that keeps it going and its command as it is.
-    let push = [-1.5, 0.0];
+    let push = [-1.5, 0.0, 0.0];
     let ground = constant(push[0]);
     let mut state = machine.released_at(0.02, 0.8, push);
-    let shaking = Shaking { horizontal: &ground, vertical: None };
+    let shaking = Shaking::level(&ground);
     let limits = Limits { overturned: 1.5, events: 10_000 };
     let mut passed = 0.0;
     for time in [0.03, 0.06, 0.12, 0.2] {

@@ -32,7 +32,7 @@ fn shaken(structure: &Structure, horizontal: AnySegment<f64>, vertical: Option<A
         }
     }
     let (mut state, mut watch) = (machine.at_rest(), Watch(Peaks::default()));
-    let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|ground| ground as _) };
+    let shaking = Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|ground| ground as _), support: None };
     let limits = Limits { overturned: 1.2, events: 100_000 };
     machine.advance(&tight(), &mut state, shaking, duration, &limits, &mut watch).unwrap();
     (watch.0.rotation, state.motion.phase)
@@ -106,10 +106,10 @@ fn dry_friction_takes_its_force_times_the_travel() {
             }
         }
     }
-    let mut state = machine.released_at(start, 0.0, [0.0; 2]);
+    let mut state = machine.released_at(start, 0.0, [0.0; 3]);
     let mut turns = Turns::default();
     let limits = Limits { overturned: 1.0, events: 10_000 };
-    let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+    let shaking = Shaking::level(&Harmonics::QUIET);
     machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 6.0, &limits, &mut turns).unwrap();
     // p²(α|θ| − θ²/2) falls by p² F/(mg) over every unit of travel.
     let energy = |theta: f64| p2 * (alpha * theta.abs() - 0.5 * theta * theta);
@@ -132,9 +132,9 @@ fn friction_holds_a_block_where_nothing_else_does() {
     let reach = crate::math::atan(0.02);
     for (angle, held) in [(alpha - 0.99 * reach, true), (alpha - 1.01 * reach, false), (alpha + 0.99 * reach, true)] {
         let machine: HybridSystem<f64> = dry(0.02).resolve(&structure, false).unwrap();
-        let mut state = machine.released_at(angle, 0.0, [0.0; 2]);
+        let mut state = machine.released_at(angle, 0.0, [0.0; 3]);
         let limits = Limits { overturned: 1.5, events: 10_000 };
-        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+        let shaking = Shaking::level(&Harmonics::QUIET);
         machine.advance(&Series::<f64, 20>::adaptive(1e-17), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
         let (rotation, stays) = (state.motion.rotation, state.held);
         assert_eq!(stays, held, "at {angle}");

@@ -10,6 +10,7 @@ mod methods;
 mod restitution_scatter;
 mod standing;
 mod support;
+mod support_motion;
 mod viscous;
 
 use std::vec::Vec;
@@ -200,11 +201,11 @@ impl Shake {
         let mut watcher = Watcher::new(other);
         let mut state: HybridState<f64> = machine.at_rest();
         for (ground, duration) in &self.pieces {
-            let shaking = Shaking { horizontal: ground, vertical: None };
+            let shaking = Shaking::level(ground);
             machine.advance(method, &mut state, shaking, *duration, &self.limits(false), &mut watcher).unwrap();
             watcher.peaks.origin += duration;
         }
-        let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+        let shaking = Shaking::level(&Harmonics::QUIET);
         machine.advance(method, &mut state, shaking, self.free_time, &self.limits(true), &mut watcher).unwrap();
         let own = watcher;
         Seen {
@@ -253,10 +254,7 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 12] {
         ("ideal with load friction", of(Engagement::Ideal, bearings, Rack { load_friction: 0.1, ..rack })),
         ("rigid with load friction", of(Engagement::Rigid, flywheel, Rack { load_friction: 0.1, ..rack })),
         ("viscous slip", of(Engagement::Viscous { corner_frequency: 3.0 }, flywheel, rack)),
-        (
-            "ideal on a moving support",
-            Drivetrain { support: Support { amplification: 1.3 }, rack: guided, ..Drivetrain::default() },
-        ),
+        ("ideal on a moving support", Drivetrain { support: Support::amplified(1.3), rack: guided, ..Drivetrain::default() }),
     ]
 }
 

@@ -41,10 +41,10 @@ fn speeds<S: Real, T: ModeIntegrator<S>>(structure: &Structure, share: f64, meth
         }
     }
     let machine: HybridSystem<S> = Drivetrain::default().resolve(structure, false).unwrap();
-    let mut state = machine.released_at(S::of(share * structure.block.slenderness()), S::ZERO, [S::ZERO; 2]);
+    let mut state = machine.released_at(S::of(share * structure.block.slenderness()), S::ZERO, [S::ZERO; 3]);
     let mut speeds = Speeds::default();
     let limits = Limits { overturned: S::ONE, events: 100_000 };
-    let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+    let shaking = Shaking::level(&Harmonics::QUIET);
     machine.advance(method, &mut state, shaking, S::of(8.0), &limits, &mut speeds).unwrap();
     speeds.0
 }
@@ -132,6 +132,7 @@ fn the_ledger_closes_with_scattered_impacts() {
                 mass_ratio: 0.5,
                 rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
                 support: drivetrain.support.amplification - 1.0,
+                own_support: f64::from(u8::from(drivetrain.support.own_motion)),
             };
             let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
             shake.watched(&drivetrain, &tight(), &mut ledger);

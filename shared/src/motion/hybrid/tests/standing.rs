@@ -57,7 +57,7 @@ fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64
     }
     (state.device.wheels[0].spin, state.device.wheels[1].spin) = (spin, -spin);
     let ramp = Linear { start: 0.0, slope: SLOPE };
-    let shaking = Shaking { horizontal: &ramp, vertical: None };
+    let shaking = Shaking::level(&ramp);
     let limits = Limits { overturned: 1.0, events: 10_000 };
     let mut first = First::default();
     machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
@@ -171,7 +171,7 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     let drivetrain = Drivetrain { engagement: Engagement::Overrunning, ..Drivetrain::default() };
     let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
     // Outward, against the weight.
-    let state = machine.released_at(0.0, 0.1, [0.0; 2]);
+    let state = machine.released_at(0.0, 0.1, [0.0; 3]);
     let configuration = machine.body.configuration(state.motion.side.unit(), state.motion.rotation);
     let acceleration = machine.acceleration_now(&state, &configuration);
     let now = machine.snapshot(&machine.law(&state), &state, &machine.place(&state), acceleration);

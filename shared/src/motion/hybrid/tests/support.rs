@@ -16,7 +16,7 @@ use crate::structure::mount::Mount;
 const SIGMA: f64 = 0.5;
 
 fn on(amplification: f64) -> Drivetrain {
-    Drivetrain { support: Support { amplification }, ..Drivetrain::default() }
+    Drivetrain { support: Support::amplified(amplification), ..Drivetrain::default() }
 }
 
 fn single(geometry: Geometry, mount: Mount, amplitude: f64) -> Shake {
@@ -58,7 +58,7 @@ fn it_moves_the_uplift_threshold_of_an_inerter_and_not_that_of_a_pair() {
             for (push, rocks) in [(0.999, false), (1.001, true), (-0.999, false), (-1.001, true)] {
                 let ground = constant(push * threshold / (1.0 - share * SIGMA * (f - 1.0)));
                 let mut state = machine.at_rest();
-                let shaking = Shaking { horizontal: &ground, vertical: None };
+                let shaking = Shaking::level(&ground);
                 let limits = Limits { overturned: 1.5, events: 10_000 };
                 let stands = machine.stands_through(&machine.footing(), &mut state, shaking, 0.3);
                 assert!(!(stands && rocks), "{kind:?} f = {f}: the footing misses an uplift at {push}");
@@ -95,9 +95,9 @@ fn a_pair_engages_where_its_flywheel_would_resist() {
     for side in [1.0, -1.0] {
         let machine: HybridSystem<f64> = on(f).resolve(&structure, false).unwrap();
         let ground = Linear::constant(side * push);
-        let mut state = machine.released_at(side * start, 0.0, [side * push, 0.0]);
+        let mut state = machine.released_at(side * start, 0.0, [side * push, 0.0, 0.0]);
         assert!(state.device.wheels.iter().all(|wheel| wheel.coupling == Coupling::Open));
-        let shaking = Shaking { horizontal: &ground, vertical: None };
+        let shaking = Shaking::level(&ground);
         let (mut arrival, limits) = (Arrival::default(), Limits { overturned: 1.0, events: 1000 });
         machine.advance(&tight(), &mut state, shaking, 1.5, &limits, &mut arrival).unwrap();
         let arrived = arrival.0.unwrap();
@@ -146,8 +146,8 @@ fn on_quiet_ground_it_is_nothing() {
         let structure = structure(Geometry::Full, 12.0, kind, SIGMA, KinematicsKind::Consistent);
         let [moved, plain] = [on(3.0), Drivetrain::default()].map(|drivetrain| {
             let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
-            let mut state = machine.released_at(0.1, 0.0, [0.0; 2]);
-            let shaking = Shaking { horizontal: &Harmonics::QUIET, vertical: None };
+            let mut state = machine.released_at(0.1, 0.0, [0.0; 3]);
+            let shaking = Shaking::level(&Harmonics::QUIET);
             let limits = Limits { overturned: 1.5, events: 10_000 };
             machine.advance(&tight(), &mut state, shaking, 1.0, &limits, &mut ()).unwrap();
             state.motion

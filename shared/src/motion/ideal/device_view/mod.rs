@@ -85,7 +85,7 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
             device.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
             device.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
         }
-        Snapshot { motion, ground: [self.segment.acceleration(self.start + time), S::ZERO], terminal_velocity, device }
+        Snapshot { motion, ground: [self.segment.acceleration(self.start + time), S::ZERO, S::ZERO], terminal_velocity, device }
     }
 }
 

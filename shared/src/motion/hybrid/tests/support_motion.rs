@@ -1,0 +1,197 @@
+//! A support with a motion of its own, beside the ground's.
+
+use super::{constant, sine, structure, tight};
+use crate::ground::{AnySegment, DampedOscillation, GroundSegment, Harmonics};
+use crate::method::fixed::{FixedStep, Scheme};
+use crate::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
+use crate::motion::hybrid::{HybridState, HybridSystem};
+use crate::motion::observer::Observer;
+use crate::motion::state::{Limits, Phase};
+use crate::observers::ledger::{Account, Clutching, Ledger};
+use crate::observers::peaks::Peaks;
+use crate::structure::Structure;
+use crate::structure::block::Geometry;
+use crate::structure::device::{DeviceKind, KinematicsKind};
+use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use crate::structure::mount::Mount;
+
+const SIGMA: f64 = 0.5;
+
+const LIMITS: Limits<f64> = Limits { overturned: 1.5, events: 100_000 };
+
+fn moving() -> Drivetrain {
+    Drivetrain { support: Support::MOVING, ..Drivetrain::default() }
+}
+
+fn of(geometry: Geometry, kind: DeviceKind, mount: Mount) -> Structure {
+    let mut structure = structure(geometry, 10.0, kind, SIGMA, KinematicsKind::Consistent);
+    structure.device.mount = mount;
+    structure
+}
+
+/// Follows a block through `pieces`: ground, support against it, and how long they last (s).
+fn follow<T: ModeIntegrator<f64>>(
+    machine: &HybridSystem<f64>,
+    method: &T,
+    pieces: &[(AnySegment<f64>, AnySegment<f64>, f64)],
+    observer: &mut dyn Observer<f64>,
+) -> HybridState<f64> {
+    let mut state = machine.at_rest();
+    for (ground, support, duration) in pieces {
+        let shaking = Shaking { support: Some(support), ..Shaking::level(ground) };
+        machine.advance(method, &mut state, shaking, *duration, &LIMITS, observer).unwrap();
+    }
+    state
+}
+
+/// A cycle of the ground under a support that swings faster and rings on.
+fn pieces(sign: f64) -> [(AnySegment<f64>, AnySegment<f64>, f64); 2] {
+    let cycle = core::f64::consts::TAU / 9.0;
+    let ringing = DampedOscillation { real: sign * 0.2, imaginary: sign * 0.3, decay: 1.5, frequency: 31.0 };
+    [
+        (sine(sign * 0.5, 9.0), AnySegment::Sine(Harmonics::sine(sign * 0.4, 23.0)), cycle),
+        (AnySegment::Quiet, AnySegment::Damped(ringing), 3.0),
+    ]
+}
+
+fn account(kind: DeviceKind) -> Account {
+    let clutching = if kind == DeviceKind::ClutchedPair { Clutching::Ideal } else { Clutching::Permanent };
+    Account { clutching, mass_ratio: SIGMA, own_support: 1.0, ..Account::default() }
+}
+
+/// One that moves by f − 1 times the ground's acceleration against it is one that moves by f times.
+#[test]
+fn in_proportion_to_the_ground_it_is_the_factor() {
+    let tied = Mount::TyingPoint { height: 1.4, pulley_ratio: 1.5 };
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for (geometry, mount) in
+            [(Geometry::Slender, Mount::CentreOfMass), (Geometry::Full, Mount::CentreOfMass), (Geometry::Full, tied)]
+        {
+            for f in [1.2, 0.0, -1.0] {
+                let structure = of(geometry, kind, mount);
+                let cycle = core::f64::consts::TAU / 9.0;
+                let pieces = [(sine(0.5, 9.0), sine((f - 1.0) * 0.5, 9.0), cycle), (AnySegment::Quiet, AnySegment::Quiet, 3.0)];
+                let factor = Drivetrain { support: Support::amplified(f), ..Drivetrain::default() };
+                let [own, factor, plain] = [moving(), factor, Drivetrain::default()].map(|drivetrain| {
+                    let mut peaks = Peaks::default();
+                    let state = follow(&drivetrain.resolve(&structure, false).unwrap(), &tight(), &pieces, &mut peaks);
+                    (peaks.rotation, state.motion)
+                });
+                assert!((own.0 / factor.0 - 1.0).abs() < 1e-12, "{kind:?} {geometry:?} f = {f}: {} and {}", own.0, factor.0);
+                assert!((own.1.rotation - factor.1.rotation).abs() < 1e-11, "{own:?} {factor:?}");
+                assert_eq!(own.1.impacts, factor.1.impacts);
+                assert!((own.0 / plain.0 - 1.0).abs() > 1e-3, "{kind:?} {geometry:?} f = {f} does not matter");
+            }
+        }
+    }
+}
+
+#[test]
+fn its_work_closes_the_ledger() {
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        for geometry in [Geometry::Slender, Geometry::Full] {
+            let structure = of(geometry, kind, Mount::CentreOfMass);
+            let machine = moving().resolve(&structure, false).unwrap();
+            let mut ledger = Ledger::new(&structure.block, geometry, &account(kind));
+            follow(&machine, &tight(), &pieces(1.0), &mut ledger);
+            let entries = ledger.entries;
+            let residual = entries.residual().abs() / entries.input.abs();
+            assert!(residual < 1e-10, "{kind:?} {geometry:?}: {residual:e} of the input, {entries:?}");
+            let mut blind = Ledger::new(&structure.block, geometry, &Account { own_support: 0.0, ..account(kind) });
+            follow(&machine, &tight(), &pieces(1.0), &mut blind);
+            assert!(blind.entries.residual().abs() > 1e-3 * entries.input.abs(), "{kind:?}: the support does no work");
+        }
+    }
+}
+
+#[test]
+fn the_mirrored_motion_is_the_mirror() {
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        let machine = moving().resolve(&of(Geometry::Full, kind, Mount::CentreOfMass), false).unwrap();
+        let [one, other] = [1.0, -1.0].map(|sign| follow(&machine, &tight(), &pieces(sign), &mut ()).motion);
+        assert_eq!((one.rotation, one.velocity, one.impacts), (-other.rotation, -other.velocity, other.impacts), "{kind:?}");
+        assert!(one.impacts > 0);
+    }
+}
+
+#[test]
+fn runge_kutta_agrees_with_the_series() {
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        let machine = moving().resolve(&of(Geometry::Full, kind, Mount::CentreOfMass), false).unwrap();
+        let peak = |peaks: Peaks<f64>| peaks.rotation;
+        let (mut series, mut steps) = (Peaks::default(), Peaks::default());
+        follow(&machine, &tight(), &pieces(1.0), &mut series);
+        let method = FixedStep { scheme: Scheme::RungeKutta4, step: 1e-3 };
+        follow(&machine, &method, &pieces(1.0), &mut steps);
+        let (series, steps) = (peak(series), peak(steps));
+        assert!((steps / series - 1.0).abs() < 1e-8, "{kind:?}: {steps} and {series}");
+    }
+}
+
+/// On ground that stands still the flywheel lifts the block where σ |ü_s| = g tan α; the clutches of a pair are open.
+#[test]
+fn it_lifts_a_block_by_its_inerter_alone() {
+    let structure = of(Geometry::Full, DeviceKind::Inerter, Mount::CentreOfMass);
+    let threshold = crate::math::tan(structure.block.slenderness()) / SIGMA;
+    for (kind, push, rocks) in [
+        (DeviceKind::Inerter, 0.999, false),
+        (DeviceKind::Inerter, 1.001, true),
+        (DeviceKind::Inerter, -0.999, false),
+        (DeviceKind::Inerter, -1.001, true),
+        (DeviceKind::ClutchedPair, 1.5, false),
+    ] {
+        let machine: HybridSystem<f64> = moving().resolve(&of(Geometry::Full, kind, Mount::CentreOfMass), false).unwrap();
+        let support = constant(push * threshold);
+        let shaking = Shaking { support: Some(&support), ..Shaking::level(&Harmonics::QUIET) };
+        let mut state = machine.at_rest();
+        let stands = machine.stands_through(&machine.footing(), &mut state, shaking, 0.3);
+        assert!(!(stands && rocks), "the footing misses an uplift at {push}");
+        machine.advance(&tight(), &mut state, shaking, 0.3, &LIMITS, &mut ()).unwrap();
+        assert_eq!(state.motion.phase == Phase::Rocking, rocks, "{kind:?}, {push}");
+        // A wall that pulls the flywheel on drags the block with it: the two accelerations have one sign.
+        assert!(!rocks || state.motion.rotation * push > 0.0, "{state:?}");
+    }
+    // Where the ground ends in a swing the uplift is an instant of its own.
+    let swing = DampedOscillation { real: 0.0, imaginary: -2.0 * threshold, decay: 0.0, frequency: 4.0 };
+    let machine: HybridSystem<f64> = moving().resolve(&structure, false).unwrap();
+    let at = crate::math::asin(0.5) / 4.0;
+    for (until, phase) in [(at * (1.0 - 1e-9), Phase::Rest), (at * (1.0 + 1e-9), Phase::Rocking)] {
+        let shaking = Shaking { support: Some(&swing as &dyn GroundSegment<f64>), ..Shaking::level(&Harmonics::QUIET) };
+        let mut state = machine.at_rest();
+        machine.advance(&tight(), &mut state, shaking, until, &LIMITS, &mut ()).unwrap();
+        assert_eq!(state.motion.phase, phase);
+    }
+}
+
+/// As the factor, by name and reason.
+#[test]
+fn what_needs_its_velocity_is_refused() {
+    let pair = of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass);
+    let flywheel = FlywheelLosses { viscous_rate: 0.1, ..FlywheelLosses::default() };
+    let rack = Rack { dry_ratio: 0.1, ..Rack::default() };
+    for (drivetrain, structure, parameter, range) in [
+        (
+            Drivetrain { engagement: Engagement::Rigid, ..moving() },
+            pair,
+            "support_motion",
+            "none with friction or a flywheel that keeps its speed",
+        ),
+        (Drivetrain { flywheel, ..moving() }, pair, "support_motion", "none with friction or a flywheel that keeps its speed"),
+        (Drivetrain { rack, ..moving() }, pair, "support_motion", "none with friction or a flywheel that keeps its speed"),
+        (
+            moving(),
+            of(Geometry::Full, DeviceKind::ClutchedPair, Mount::BaseCorners { pulley_ratio: 1.0 }),
+            "support_motion",
+            "none for vertical devices at the base corners",
+        ),
+        (
+            Drivetrain { support: Support { amplification: 1.2, ..Support::MOVING }, ..moving() },
+            pair,
+            "support_amplification",
+            "1 beside a support's own motion",
+        ),
+    ] {
+        let error = drivetrain.resolve::<f64>(&structure, false).unwrap_err();
+        assert_eq!((error.parameter, error.range), (parameter, range));
+    }
+}

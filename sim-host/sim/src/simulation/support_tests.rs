@@ -1,0 +1,116 @@
+//! Supports of their own motion through whole runs.
+
+use std::path::Path;
+
+use sprag_shared::math;
+
+use super::{DeviceRun, RunError, simulate};
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+
+/// A record, its units and a time step; the wall's is 1.2 times the ground's.
+fn records(folder: &Path) {
+    let ground = |k: u32| 0.35 * math::sin(0.11 * f64::from(k)) * math::sin(0.02 * f64::from(k));
+    for (name, factor) in [("ground.csv", 1.0), ("wall.csv", 1.2)] {
+        let rows: String = (0..150).map(|k| format!("{:.2},{}\n", 0.02 * f64::from(k), factor * ground(k))).collect();
+        std::fs::write(folder.join(name), format!("# time_s,acc_g\n{rows}")).unwrap();
+    }
+}
+
+fn scene(folder: &Path, device: &str, changes: &[&str]) -> Scene {
+    let text = format!(
+        "block = {{ size_m = 2.0, slenderness_deg = 10.0 }}\n\
+         device = [{{ kind = 'none' }}, {{ mass_ratio = 0.5, {device} }}]\n\
+         ground = [{{ motion = 'record', file = 'ground.csv', start_s = 0.4 }}]\n\
+         output.energy = true\n"
+    );
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    let mut scene = Scene::parse_with(&text, "scene", &changes).unwrap();
+    scene.folder = folder.to_owned();
+    scene
+}
+
+fn run(folder: &Path, device: &str, changes: &[&str]) -> DeviceRun {
+    let scene = scene(folder, device, changes);
+    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(1)
+}
+
+const KINDS: [&str; 2] = ["kind = 'inerter'", "kind = 'clutched-pair'"];
+
+#[test]
+fn a_record_in_proportion_to_the_ground_is_the_factor() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path());
+    let lifts = "vertical = [{ motion = 'sine', amplitude_g = 0.1, frequency_hz = 1.3, start_s = 0.21 }]".replace(' ', "");
+    for changes in [&[][..], &[lifts.as_str()]] {
+        for kind in KINDS {
+            let recorded = run(folder.path(), &format!("{kind}, support_record = {{ file = 'wall.csv' }}"), changes);
+            let scaled = "support_record = { file = 'ground.csv', scale = 1.2 }";
+            let scaled = run(folder.path(), &format!("{kind}, {scaled}"), changes);
+            let factor = run(folder.path(), &format!("{kind}, support_amplification = 1.2"), changes);
+            let plain = run(folder.path(), kind, changes);
+            let peak = |run: &DeviceRun| run.peak_rotation.unwrap();
+            for one in [&recorded, &scaled] {
+                assert!((peak(one) / peak(&factor) - 1.0).abs() < 1e-9, "{kind}: {} and {}", peak(one), peak(&factor));
+                assert_eq!((one.impacts, one.outcome), (factor.impacts, factor.outcome));
+            }
+            assert!((peak(&factor) / peak(&plain) - 1.0).abs() > 1e-3, "{kind}: the support does not matter");
+        }
+    }
+}
+
+/// As (ω_g/ω_s)², which is a quarter with each doubling of the wall's frequency.
+#[test]
+fn a_stiff_wall_is_the_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in KINDS {
+        let ground = ["ground=[{motion='ricker',amplitude_g=0.4,frequency_hz=1}]"];
+        let peak = |support: &str| run(folder.path(), &format!("{kind}{support}"), &ground).peak_rotation.unwrap();
+        let plain = peak("");
+        let differences = [40.0, 80.0, 160.0]
+            .map(|hertz| peak(&format!(", support_frequency_hz = {hertz:?}, support_damping_ratio = 0.7")) / plain - 1.0);
+        for pair in differences.windows(2) {
+            assert!((pair[0] / pair[1] - 4.0).abs() < 0.4, "{kind}: {differences:?}");
+        }
+        assert!(differences[2].abs() < 1e-3, "{kind}: {differences:?}");
+    }
+}
+
+#[test]
+fn the_ledger_closes_on_a_wall_that_swings_and_rings_on() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path());
+    for kind in KINDS {
+        for wall in ["5.0, support_damping_ratio = 0.05", "1.0, support_damping_ratio = 0.2"] {
+            let device = format!("{kind}, support_frequency_hz = {wall}");
+            let moved = run(folder.path(), &device, &[]);
+            let entries = moved.energy.as_ref().unwrap().entries;
+            assert!(entries.residual.abs() < 1e-9 * entries.input.abs(), "{device}: {entries:?}");
+            let mirrored = run(folder.path(), &device, &["ground.0.scale=-1"]);
+            assert_eq!(mirrored.peak_rotation, moved.peak_rotation, "{device}");
+            let samples = |run: &DeviceRun| run.history.samples.iter().map(|s| s.rotation_rad.abs()).collect::<Vec<_>>();
+            assert_eq!(samples(&mirrored), samples(&moved));
+            // The free time begins once the wall has come to rest.
+            let plain = run(folder.path(), kind, &[]);
+            let last = |run: &DeviceRun| run.history.samples.last().unwrap().time_s;
+            assert!(last(&moved) > last(&plain) + 3.0, "{} {}", last(&moved), last(&plain));
+        }
+    }
+}
+
+#[test]
+fn another_ground_has_no_record_of_the_support() {
+    let folder = tempfile::tempdir().unwrap();
+    records(folder.path());
+    let mut own = scene(folder.path(), "kind = 'inerter', support_record = { file = 'wall.csv' }", &[]);
+    let ground = own.ground_motions().unwrap();
+    assert_eq!((ground.records.len(), own.records().unwrap().len()), (2, 2));
+    let other = scene(folder.path(), "kind = 'inerter'", &[]).ground_motions().unwrap();
+    let error = simulate(&own, &other, &Interrupt::default()).unwrap_err();
+    assert!(matches!(&error, RunError::OtherGround { device } if device == "inerter"), "{error}");
+    let error = own.use_record(Path::new("other.csv")).unwrap_err().to_string();
+    assert!(error.starts_with("scene: device.1.support_record: another record"), "{error}");
+    // An oscillator goes with every ground.
+    let wall = "kind = 'inerter', support_frequency_hz = 5.0, support_damping_ratio = 0.05";
+    assert!(simulate(&scene(folder.path(), wall, &[]), &other, &Interrupt::default()).is_ok());
+}
