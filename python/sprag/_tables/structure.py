@@ -266,6 +266,41 @@ class Weight(Table):
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class SupportRecord(Table):
+    """Recorded motion of the support itself.
+
+    Attributes
+    ----------
+    file
+        File of the record, relative to the scene.
+    units
+        Units of a record that does not state its own: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
+    time_step_s
+        Time step of a record that does not state its own; from 1e-06 to 10.
+    component
+        Component of a record file with several.
+    resample_to_s
+        Time step to which the record is resampled linearly; from 1e-05 to 1.
+    scale
+        Factor on the record; from -1000 to 1000; 1.0 by default.
+
+    Raises
+    ------
+    InputError
+        For a value outside its range.
+    """
+
+    _path: ClassVar[str] = "device.support_record"
+
+    file: str
+    units: str | None = None
+    time_step_s: float | None = None
+    component: str | None = None
+    resample_to_s: float | None = None
+    scale: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class NoDevice(Table):
     """No device.
 
@@ -329,6 +364,13 @@ class Inerter(Table):
     support_amplification
         Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves
         with the ground; from -10 to 10; 1.0 by default.
+    support_frequency_hz
+        Natural frequency of a support that is a damped oscillator on the ground, so heavy that the device
+        does not move it; from 0.1 to 1000.
+    support_damping_ratio
+        Damping ratio of the oscillator that the support is; from 0.005 to 0.9.
+    support_record
+        Recorded motion of the support itself.
 
     Raises
     ------
@@ -355,6 +397,9 @@ class Inerter(Table):
     inertance_corner_hz: float | None = None
     weight: Weight | None = None
     support_amplification: float | None = None
+    support_frequency_hz: float | None = None
+    support_damping_ratio: float | None = None
+    support_record: SupportRecord | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -400,6 +445,13 @@ class ClutchedPair(Table):
     support_amplification
         Horizontal acceleration of the support that carries the device over the ground's; 1 where it moves
         with the ground; from -10 to 10; 1.0 by default.
+    support_frequency_hz
+        Natural frequency of a support that is a damped oscillator on the ground, so heavy that the device
+        does not move it; from 0.1 to 1000.
+    support_damping_ratio
+        Damping ratio of the oscillator that the support is; from 0.005 to 0.9.
+    support_record
+        Recorded motion of the support itself.
 
     Raises
     ------
@@ -426,6 +478,9 @@ class ClutchedPair(Table):
     inertance_corner_hz: float | None = None
     weight: Weight | None = None
     support_amplification: float | None = None
+    support_frequency_hz: float | None = None
+    support_damping_ratio: float | None = None
+    support_record: SupportRecord | None = None
 
 
 Device = NoDevice | Inerter | ClutchedPair

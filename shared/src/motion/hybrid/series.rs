@@ -148,6 +148,10 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
             // Every unknown counts; those of the first order have one coefficient fewer.
             for order in [N - 2, N - 1] {
                 series.shorten(order, series.motion.rotation[order].abs(), tolerance);
+                if start.system.transmission.parameters.relative_push != S::ZERO {
+                    // A support that swings fast shows in the guards before it shows in θ.
+                    series.shorten(order - 2, ground[2][order - 2].abs(), tolerance);
+                }
                 for (unknown, &size) in unknowns.iter().zip(&sizes) {
                     series.shorten(order - 1, unknown[order - 1].abs() * (scale / size), tolerance);
                 }
