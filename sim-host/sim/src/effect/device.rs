@@ -85,10 +85,11 @@ pub const WEIGHT: Effect = Effect {
 /// Friction of the rack.
 pub const RACK: Effect = Effect {
     name: "rack",
-    summary: "viscous and dry friction that the rack meets, and friction in its mesh that grows with the force of locked flywheels",
+    summary: "viscous and dry friction of the rack, and friction in its mesh that grows with the force of locked flywheels",
     equation: &[
-        "F_r = m (c_r ẋ + μ_r g sgn ẋ) + μ_m Σ|F| sgn ẋ,  ẋ = R ℓ θ̇,  F the force of a locked flywheel",
-        "a share 1/(1 + μ_m) of the power arrives while the rack drives a flywheel, 1 − μ_m while the flywheel drives the rack",
+        "F_r = m (c_r ẋ + μ_r g sgn ẋ),  ẋ = R ℓ θ̇",
+        "F_m = μ_m |F| sgn ẋ for each locked flywheel, F its force: a share 1/(1 + μ_m) of the power arrives",
+        "while the rack drives the flywheel, and 1 − μ_m while the flywheel drives the rack",
     ],
     source: "Coulomb and viscous friction; Wang and Su 2008 for friction of built inerters",
     keys: &[

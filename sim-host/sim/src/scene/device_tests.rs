@@ -1,6 +1,7 @@
 //! What goes beyond the ideal device: every table, and every refusal.
 
 use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::device::KinematicsKind;
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 
 use super::*;
