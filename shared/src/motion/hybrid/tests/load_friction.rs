@@ -142,5 +142,5 @@ fn what_it_is_not_for_is_refused() {
     {
         assert_eq!(parameter(Drivetrain { engagement, ..loaded(0.1) }), "load_friction");
     }
-    assert_eq!(parameter(Drivetrain { support: Support { amplification: 1.2 }, ..loaded(0.1) }), "support_amplification");
+    assert_eq!(parameter(Drivetrain { support: Support::amplified(1.2), ..loaded(0.1) }), "support_amplification");
 }

@@ -53,11 +53,11 @@ fn it_has_the_transfer_function_of_a_maxwell_element() {
         };
         let rate = (-omega * x.1, omega * x.0);
         let spin = ((rate.0 + ratio * rate.1) * share, (rate.1 - ratio * rate.0) * share);
-        let mut state = machine.released_at(alpha + at(0.0, x), at(0.0, rate), [0.0; 2]);
+        let mut state = machine.released_at(alpha + at(0.0, x), at(0.0, rate), [0.0; 3]);
         state.device.wheels[0].spin = at(0.0, spin);
         let ground = super::sine(amplitude, omega);
         let end = 2.3 * core::f64::consts::TAU / omega;
-        let shaking = Shaking { horizontal: &ground, vertical: None };
+        let shaking = Shaking { horizontal: &ground, vertical: None, support: None };
         machine.advance(&tight(), &mut state, shaking, end, &LIMITS, &mut ()).unwrap();
         let size = square_root(x.0 * x.0 + x.1 * x.1);
         let error = (state.motion.rotation - alpha - at(end, x)) / size;
@@ -163,7 +163,7 @@ fn a_flywheel_pushes_a_standing_block_as_long_as_it_turns() {
         let ground = AnySegment::Linear(Linear { start: 0.0, slope: -most / end });
         let mut nobody = ();
         let mut watcher = Watcher::new(&mut nobody);
-        let shaking = Shaking { horizontal: &ground, vertical: None };
+        let shaking = Shaking { horizontal: &ground, vertical: None, support: None };
         machine.advance(&tight(), &mut state, shaking, end, &LIMITS, &mut watcher).unwrap();
         assert_eq!(state.motion.phase, Phase::Rocking);
         let uplift = watcher.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
