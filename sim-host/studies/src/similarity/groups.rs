@@ -116,19 +116,19 @@ mod tests {
         let of = |size: f64, support: &str| {
             let text = format!(
                 "block = {{ size_m = {size}, slenderness_deg = 10.0 }}\n\
-                 device = [{{ kind = 'inerter', mass_ratio = 0.5, {support} }}]\n\
+                 device = [{{ kind = 'inerter', mass_ratio = 0.5{support} }}]\n\
                  ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 3.0 }}]"
             );
             groups(&Scene::parse(&text, "scene").unwrap()).unwrap()
         };
-        let wall = |hertz: f64| format!("support_frequency_hz = {hertz}, support_damping_ratio = 0.05");
+        let wall = |hertz: f64| format!(", support_frequency_hz = {hertz}, support_damping_ratio = 0.05");
         let names = |one: &[Group], other: &[Group]| unequal(one, other).join(", ");
         let first = of(2.0, &wall(5.0));
         assert_eq!(names(&first, &of(2.0, &wall(5.0))), "");
         assert_eq!(names(&first, &of(8.0, &wall(5.0))), "ω_s/p of device 0 (inerter)");
         assert_eq!(names(&first, &of(8.0, &wall(2.5))), "");
-        let factor = of(2.0, "support_amplification = 1.2");
-        assert_eq!(names(&factor, &of(2.0, "support_amplification = 1.3")), "ü_s/ü_g of device 0 (inerter)");
+        let factor = of(2.0, ", support_amplification = 1.2");
+        assert_eq!(names(&factor, &of(2.0, ", support_amplification = 1.3")), "ü_s/ü_g of device 0 (inerter)");
         for (one, other) in [(&factor, &of(2.0, "")), (&of(2.0, ""), &factor)] {
             assert_eq!(names(one, other), "ü_s/ü_g of device 0 (inerter)");
         }

@@ -128,6 +128,24 @@ fn runge_kutta_agrees_with_the_series() {
     }
 }
 
+/// A fast swing opens and closes clutches many times; none of these instants may be missed until a step's end, however long the steps of
+/// the slow block are.
+#[test]
+fn clutches_switch_on_time_however_fast_it_swings() {
+    let machine = moving().resolve(&of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass), false).unwrap();
+    for k in 0..40 {
+        let frequency = 8.0 + 0.7 * f64::from(k);
+        let swing = DampedOscillation { real: 0.0, imaginary: 0.4, decay: 0.05 * frequency, frequency };
+        let push = (constant(-0.4), AnySegment::Damped(swing), 0.25);
+        let fall = (AnySegment::Quiet, AnySegment::Damped(swing), 1.5);
+        let method = FixedStep { scheme: Scheme::RungeKutta4, step: 2e-4 };
+        let series = follow(&machine, &tight(), &[push, fall], &mut ()).motion;
+        let steps = follow(&machine, &method, &[push, fall], &mut ()).motion;
+        assert!((series.rotation - steps.rotation).abs() < 1e-9, "ω = {frequency}: {series:?} {steps:?}");
+        assert_eq!(series.impacts, steps.impacts, "ω = {frequency}");
+    }
+}
+
 /// On ground that stands still the flywheel lifts the block where σ |ü_s| = g tan α; the clutches of a pair are open.
 #[test]
 fn it_lifts_a_block_by_its_inerter_alone() {
