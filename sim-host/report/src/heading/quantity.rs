@@ -65,7 +65,7 @@ const QUANTITIES: [Quantity; 79] = [
     quantity("device.N.actuation.dwell_s", "dwell", "", "s"),
     quantity("device.N.actuation.miss_probability", "probability of a missed engagement", "", ""),
     quantity("device.N.actuation.miss_seed", "seed of missed engagements", "", ""),
-    quantity("device.N.inertance_corner_hz", "corner frequency of the inertance", "*f*_c", "Hz"),
+    quantity("device.N.inertance_corner_hz", "corner frequency of the inertance", "", "Hz"),
     quantity("device.N.weight.flywheels_ratio", "mass of the flywheels over that of the block", "", ""),
     quantity("device.N.weight.flywheels_kg", "mass of the flywheels", "", "kg"),
     quantity("device.N.weight.rack_ratio", "mass of the rack over that of the block", "", ""),

@@ -126,15 +126,14 @@ fn load_friction(text: &mut String, start: usize, value: f64) {
             let comma = if after.starts_with(' ') { "" } else { ", " };
             let _ = write!(text, "{before}rack = {{ load_friction = {value}{comma}{after}");
         }
-        None => drop(write!(text, "{device}rack = {{ load_friction = {value} }}\n")),
+        None => drop(writeln!(text, "{device}rack = {{ load_friction = {value} }}")),
     }
 }
 
 /// Viscous slip in the place of a clutch that locks.
 fn slip(text: &mut String, start: usize, corner: f64) {
     let device = text.split_off(start).replace("engagement = \"rigid\"\n", "");
-    // A rack of the paper's kinematics has no speed for its flywheel.
-    let _ = write!(text, "{device}inertance_corner_hz = {corner}\n");
+    let _ = writeln!(text, "{device}inertance_corner_hz = {corner}");
 }
 
 fn mount(text: &mut String, random: &mut Random, height: f64, corners: bool) -> bool {

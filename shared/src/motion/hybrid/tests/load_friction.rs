@@ -41,7 +41,8 @@ fn a_constant_push_meets_more_inertia_and_a_swing_that_ends_less() {
             let rotation = (push - alpha) * (0.5 * (up + down) - 1.0);
             let velocity = (push - alpha) * fast * 0.5 * (up - down);
             let slow = if kind == DeviceKind::Inerter { rate(1.0 - mu) } else { p };
-            let left = (alpha - rotation).powi(2) - (velocity / slow).powi(2);
+            let (height, speed) = (alpha - rotation, velocity / slow);
+            let left = height * height - speed * speed;
             let expected = alpha - square_root(left);
             let seen = shake.machine(&loaded(mu), &tight());
             assert!((seen.peak / expected - 1.0).abs() < 1e-11, "{kind:?} μ = {mu}: {} and {expected}", seen.peak);
@@ -125,7 +126,7 @@ fn it_holds_with_the_bearings() {
     let alpha = structure.block.slenderness();
     let threshold = alpha + SIGMA * 1.5 * 0.4 / crate::structure::block::GRAVITY;
     for (share, rocks) in [(0.999, false), (1.001, true)] {
-        let mut shake = shake(structure.clone(), 1.0, 1.0);
+        let mut shake = shake(structure, 1.0, 1.0);
         shake.pieces = std::vec![(constant(-share * threshold), 0.2)];
         assert_eq!(shake.machine(&drivetrain, &tight()).peak > 0.0, rocks, "{share}");
     }

@@ -78,11 +78,11 @@ fn between_no_device_and_a_rigid_clutch() {
             shake.free_time = 1.0;
             let rigid = Drivetrain { engagement: Engagement::Rigid, ..Drivetrain::default() };
             let limit = shake.machine(&rigid, &tight()).peak;
-            let corners = [1e2, 1e3, 1e4];
+            let corners = [60.0, 600.0, 6000.0];
             let errors: Vec<f64> =
                 corners.iter().map(|&corner| (shake.machine(&slip(corner), &tight()).peak / limit - 1.0).abs()).collect();
             assert!(errors[1] < errors[0] / 5.0 && errors[2] < errors[1] / 5.0, "{geometry:?} {kind:?}: {errors:?}");
-            assert!(errors[2] < 1e-3, "{geometry:?} {kind:?}: {errors:?}");
+            assert!(errors[2] < 2e-3, "{geometry:?} {kind:?}: {errors:?}");
             let mut alone = shake.clone();
             alone.structure.device = crate::structure::device::Device::NONE;
             let free = alone.ideal().peak;
