@@ -40,7 +40,8 @@ impl PlainBlock {
 
     /// The block of `structure`, if the lanes have its device.
     pub fn of_structure(structure: &Structure) -> Option<PlainBlock> {
-        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient, .. } = structure;
+        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient, .. } =
+            structure;
         let k = device.mass_ratio / block.inertia_ratio();
         let coupling = match (geometry, device.kind, device.mount, device.kinematics) {
             (_, DeviceKind::None, ..) => 0.0,

@@ -47,8 +47,16 @@ impl<'a> Case<'a> {
         let mut out = Writer { words, count: 0 };
         out.word(MAGIC)?;
         out.word(VERSION)?;
-        let Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient: _, rest_speed } =
-            &self.structure;
+        let Structure {
+            block,
+            geometry,
+            device,
+            added_mass,
+            restitution,
+            restitution_scatter,
+            friction_coefficient: _,
+            rest_speed,
+        } = &self.structure;
         self.structure.cannot_slide()?;
         out.numbers(&[block.size(), block.slenderness(), block.inertia_ratio()])?;
         out.word(*geometry as u32)?;
@@ -138,7 +146,16 @@ impl<'a> Case<'a> {
             return Err(CaseError::Trailing(input.0.len() as u32));
         }
         let device = Device { kind, mass_ratio, mount, kinematics };
-        let structure = Structure { block, geometry, device, added_mass, restitution, restitution_scatter, friction_coefficient: None, rest_speed };
+        let structure = Structure {
+            block,
+            geometry,
+            device,
+            added_mass,
+            restitution,
+            restitution_scatter,
+            friction_coefficient: None,
+            rest_speed,
+        };
         let initially = if released { Initially::Released { rotation, velocity } } else { Initially::Rest };
         Ok(Case { structure, drivetrain, initially, method, step, ground, free_time })
     }

@@ -64,14 +64,7 @@ impl<S: Real> SlidingSystem<S> {
 
     /// Of a block that rocks about a toe that slides in `direction` d: h = −μ d v, so that θ̈ = −q n₀/(λ − 1 + q sin δ) with
     /// q = sin δ − μ d cos δ and n₀ = a w − cos δ θ̇². The divisor is above 0 for every δ while μ² < 4λ(λ − 1).
-    pub(super) fn sliding(
-        &self,
-        side: Sign,
-        direction: Sign,
-        rotation: S,
-        velocity: S,
-        [push, weight]: [S; 2],
-    ) -> Balance<S> {
+    pub(super) fn sliding(&self, side: Sign, direction: Sign, rotation: S, velocity: S, [push, weight]: [S; 2]) -> Balance<S> {
         let (sin, cos) = self.direction(side, rotation);
         let pull = velocity * velocity;
         let inertia = self.inertia - S::ONE;

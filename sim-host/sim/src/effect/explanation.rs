@@ -7,8 +7,8 @@ use sprag_shared::structure::drivetrain::Engagement;
 use super::motion::motion;
 use super::number::number;
 use super::{EFFECTS, Effect, rules};
-use crate::scene::sliding::step;
 use crate::scene::schema::{EventTreatment, MethodName, Precision};
+use crate::scene::sliding::step;
 use crate::scene::{Scene, SceneDevice};
 
 /// An effect that is on, and by which keys and values.
@@ -136,7 +136,9 @@ fn engine(subject: &Subject<'_>) -> String {
     if subject.scene.file.block.friction_coefficient.is_some() {
         let precision = if accuracy.precision == Precision::F32 { " in f32" } else { "" };
         let step = number(step(&subject.scene.file, &subject.scene.block));
-        return format!("a block whose base may slide: modes of its own; located events, Runge-Kutta 4{precision}, step {step} s");
+        return format!(
+            "a block whose base may slide: modes of its own; located events, Runge-Kutta 4{precision}, step {step} s"
+        );
     }
     let what = if subject.scene.is_ideal(subject.index) {
         "ideal: the device's state follows from the block's"

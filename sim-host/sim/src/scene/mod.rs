@@ -123,8 +123,7 @@ impl Scene {
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
             // Everything that the core refuses is found here, before any work.
             let structure = structure(&file, block, restitution, &device);
-            let structure =
-                Structure { restitution_scatter: RestitutionScatter::NONE, friction_coefficient: None, ..structure };
+            let structure = Structure { restitution_scatter: RestitutionScatter::NONE, friction_coefficient: None, ..structure };
             structure.resolve::<f64>().map_err(|error| refusal(&error, origin, index))?;
             devices.push(device);
         }

@@ -17,9 +17,10 @@ pub const STEP_RATIO: f64 = 1e-3;
 /// [`SceneError`] names the key and the reason.
 pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], friction: f64, key: &KeyOf<'_>) -> Result<(), SceneError> {
     let name = "block.friction_coefficient";
-    key(name).require(friction, friction > 0.0 && friction <= 10.0, "above 0, at most 10")?;
+    key(name).require(friction, friction > 0.0 && friction <= 10.0, "above 0, to 10")?;
     if let Some(index) = devices.iter().position(|device| device.device.kind != DeviceKind::None) {
-        let reason = format!("the support of device.{index} does not slide with the block; only a block without a device may slide");
+        let reason =
+            format!("the support of device.{index} does not slide with the block; only a block without a device may slide");
         return Err(key(name).conflict(&reason));
     }
     if Geometry::from(file.block.geometry) == Geometry::Slender {
@@ -29,7 +30,9 @@ pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], friction: f64, ke
         return Err(key(name).conflict("impacts that scatter (block.restitution_scatter) have no law for a toe that slides"));
     }
     if file.checks.is_some() {
-        return Err(key("checks").conflict("the checks are those of a block that cannot slide, and block.friction_coefficient lets it"));
+        return Err(
+            key("checks").conflict("the checks are those of a block that cannot slide, and block.friction_coefficient lets it")
+        );
     }
     if file.output.energy {
         return Err(key("output.energy").conflict("the ledger has no entry for a base that slides (block.friction_coefficient)"));

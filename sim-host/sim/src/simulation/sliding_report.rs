@@ -34,12 +34,14 @@ impl SlidingReport {
     pub fn words(&self) -> String {
         let since = self.first_slip_time_s.map(|time| format!(" from {time:.3} s on")).unwrap_or_default();
         let far = |value: f64| format!("{value:.4} m");
-        let lifts = self.lifted_off_time_s.map(|time| {
-            format!("; the toe lifts off at {time:.4} s, where the run ends: its flight is not modelled")
-        });
+        let lifts = self
+            .lifted_off_time_s
+            .map(|time| format!("; the toe lifts off at {time:.4} s, where the run ends: its flight is not modelled"));
         let what = match (self.outcome, self.peak_slide_m, self.residual_displacement_m) {
             (SlidingOutcome::Sticks, ..) => "the base does not slide".to_owned(),
-            (_, Some(peak), Some(residual)) => format!("the base slides{since}: {} at most, {} at the end", far(peak), far(residual)),
+            (_, Some(peak), Some(residual)) => {
+                format!("the base slides{since}: {} at most, {} at the end", far(peak), far(residual))
+            }
             _ => format!("the base slides{since}"),
         };
         what + &lifts.unwrap_or_default()

@@ -48,8 +48,10 @@ fn impulses_at_the_new_toe_within_the_cone_change_the_momentum() {
                         slid += 1;
                     }
                     both += usize::from(landing.velocity == 0.0);
-                    let (first, last) =
-                        (energy(alpha, 4.0 / 3.0, old, before, slip), energy(alpha, 4.0 / 3.0, new, landing.velocity, landing.slip));
+                    let (first, last) = (
+                        energy(alpha, 4.0 / 3.0, old, before, slip),
+                        energy(alpha, 4.0 / 3.0, new, landing.velocity, landing.slip),
+                    );
                     assert!(last <= first, "{first} {last}");
                 }
             }
@@ -69,8 +71,10 @@ fn a_lower_restitution_never_adds_energy() {
                 for slip in [0.0, 0.1, -0.1, 1.0, -1.0] {
                     let landing = system.land(Sign::Positive, -1.0, slip);
                     let toe = math::sin(alpha);
-                    let (first, last) =
-                        (energy(alpha, 4.0 / 3.0, toe, -1.0, slip), energy(alpha, 4.0 / 3.0, -toe, landing.velocity, landing.slip));
+                    let (first, last) = (
+                        energy(alpha, 4.0 / 3.0, toe, -1.0, slip),
+                        energy(alpha, 4.0 / 3.0, -toe, landing.velocity, landing.slip),
+                    );
                     assert!(last <= first * (1.0 + 1e-14) && landing.velocity <= 0.0, "{alpha} {eta} {friction} {slip}");
                 }
             }
