@@ -127,7 +127,7 @@ impl Raise for RunError {
             RunError::TooManySamples { interval, .. } => {
                 input(&self.to_string(), Some("output.interval_s"), Some(&interval.to_string()), None)
             }
-            RunError::Stopped { .. } | RunError::NoEffects { .. } => failed(self),
+            RunError::Stopped { .. } | RunError::NoEffects { .. } | RunError::LiftedOff { .. } => failed(self),
         }
     }
 }
