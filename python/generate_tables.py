@@ -152,7 +152,8 @@ def sources() -> dict[str, str]:
         "weight": "Weight",
         "support_record": "SupportRecord",
     }
-    structure = [table("Block", scene["block"], "block")]
+    foundation = table("Foundation", scene["block"]["properties"]["foundation"], "block.foundation")
+    structure = [foundation, table("Block", scene["block"], "block", tables={"foundation": "Foundation"})]
     for key, name in inner.items():
         listed = key == "flywheels"
         schema = device["properties"][key]

@@ -57,7 +57,7 @@ class Map(Result):
     def to_xarray(self) -> xarray.Dataset:
         """The map with its axes as coordinates, with units and where it comes from; arrays are not copied."""
         dimensions = ("device", self.y_key or "cut", self.x_key)
-        codes = {outcome.name.lower().replace("_", "-"): int(outcome) for outcome in Outcome}
+        codes = {outcome.name.lower().replace("_", "-"): int(outcome) for outcome in Outcome.of_studies()}
         variables = {
             "outcome": (dimensions, self.outcome, {"flag_values": list(codes.values()), "flag_meanings": " ".join(codes)}),
             "peak_rotation": (dimensions, self.peak_rotation, {"units": "1", "long_name": "max |θ|/α"}),
@@ -73,9 +73,9 @@ class Map(Result):
             ax = extra("matplotlib.pyplot").subplots()[1]
         assert ax is not None
         y = self.y if self.y_key else np.zeros(1)
-        colours = extra("matplotlib.colors").ListedColormap([outcome.colour for outcome in Outcome])
+        colours = extra("matplotlib.colors").ListedColormap([outcome.colour for outcome in Outcome.of_studies()])
         ax.pcolormesh(self.x, y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="nearest")
-        for outcome in Outcome:
+        for outcome in Outcome.of_studies():
             # A square that is nowhere: the legend's.
             ax.scatter([], [], marker="s", color=outcome.colour, edgecolors="0.6", label=outcome.words)
         ax.set_xlabel(self.x_key)

@@ -74,14 +74,16 @@ class Run(Result):
         Force of each flywheel over the block's weight, a row each.
     engaged
         The flywheel that moves with the block: 0 none, 1 the first, 2 the second.
+    displacement_m
+        Displacement of the base over the ground, m; 0 where it cannot slide.
     t_events
         Times of all impacts and of all switches of the clutch, s.
     y_events
         y just after them, a row each.
     peak_rotation
-        max |θ|/α; None when overturned.
+        max |θ|/α; None when overturned or lifted off.
     peak_acceleration
-        max |θ̈|/(p²α); None when overturned.
+        max |θ̈|/(p²α); None when overturned or lifted off.
     end_time_s
         Rest, overturning or the end of the run, s.
     error
@@ -103,6 +105,7 @@ class Run(Result):
     ground_m_s2: Floats = field(repr=False)
     force_ratio: Floats = field(repr=False)
     engaged: npt.NDArray[np.uint8] = field(repr=False)
+    displacement_m: Floats = field(repr=False)
     t_events: tuple[Floats, Floats] = field(repr=False)
     y_events: tuple[Floats, Floats] = field(repr=False)
     peak_rotation: float | None
@@ -191,6 +194,7 @@ def run_of(native: dict[str, Any], scene: Scene) -> Run:
         ground_m_s2=native["ground_m_s2"],
         force_ratio=native["force_ratio"],
         engaged=engaged,
+        displacement_m=native["displacement_m"],
         t_events=(impacts, t[switches]),
         y_events=(y[:, after].T, y[:, switches].T),
         peak_rotation=summary["peak_rotation"],

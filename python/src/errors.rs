@@ -128,7 +128,7 @@ impl Raise for RunError {
                 input(&self.to_string(), Some("output.interval_s"), Some(&interval.to_string()), None)
             }
             RunError::OtherGround { .. } => input(&self.to_string(), Some("support_record"), None, None),
-            RunError::Stopped { .. } | RunError::NoEffects { .. } => failed(self),
+            RunError::Stopped { .. } | RunError::NoEffects { .. } | RunError::LiftedOff { .. } => failed(self),
         }
     }
 }

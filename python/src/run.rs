@@ -55,6 +55,7 @@ pub fn as_dict(py: Python<'_>, run: DeviceRun) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("acceleration_rad_s2", column(|sample| sample.acceleration_rad_s2))?;
     dict.set_item("ground_m_s2", column(|sample| sample.ground_m_s2))?;
     dict.set_item("force_ratio", rows(|sample| sample.force_ratio[0], |sample| sample.force_ratio[1])?)?;
+    dict.set_item("displacement_m", column(|sample| sample.displacement_m))?;
     dict.set_item("engaged", samples.iter().map(|sample| sample.engaged).collect::<Vec<u8>>().into_pyarray(py))?;
     dict.set_item("impacts_s", run.history.impacts_s.into_pyarray(py))?;
     Ok(dict)

@@ -68,6 +68,18 @@ const ROWS: &[Row] = &[
     Row { name: "impact", set: &["PAIR}", "block.restitution=\"momentum-balance\""], base: "clutched pair", kernel: "" },
     Row { name: "scatter", set: &["PAIR}", "block.restitution_scatter=0.02"], base: "clutched pair", kernel: "" },
     Row {
+        name: "foundation",
+        set: &["block.geometry=\"full\"", "PAIR}", "block.foundation={vertical_frequency_hz=10.0,damping_ratio=0.3}"],
+        base: "geometry",
+        kernel: "",
+    },
+    Row {
+        name: "sliding",
+        set: &["block.geometry=\"full\"", "device.0={kind=\"none\"}", "block.friction_coefficient=0.3"],
+        base: "block alone",
+        kernel: "",
+    },
+    Row {
         name: "vertical",
         set: &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],
         base: "clutched pair",

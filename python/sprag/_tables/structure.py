@@ -37,6 +37,9 @@ class Block(Table):
         0 to 0.5; 0.0 by default.
     restitution_seed
         Seed of what impacts draw; of several specimens that of the first; from 0; 0 by default.
+    friction_coefficient
+        Coefficient of friction μ under a block without a device, static and kinetic: the base slides where it
+        is exceeded; without it never; above 0, to 10.
     initial_rotation_ratio
         Rotation at the start, θ/α; from -10 to 10; 0.0 by default.
     initial_velocity_ratio
@@ -59,6 +62,7 @@ class Block(Table):
     restitution: float | Literal["geometric", "momentum-balance"] | None = None
     restitution_scatter: float | None = None
     restitution_seed: int | None = None
+    friction_coefficient: float | None = None
     initial_rotation_ratio: float | None = None
     initial_velocity_ratio: float | None = None
 

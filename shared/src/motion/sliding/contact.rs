@@ -92,8 +92,9 @@ impl<S: Real> SlidingSystem<S> {
         let (side, rotation, velocity) = (state.motion.side, state.motion.rotation, state.motion.velocity);
         let along = self.stuck(side, rotation, velocity, ground).along;
         let likely = Sign::of(along, Sign::Positive).opposite();
-        let slide = self.sliding(side, likely, rotation, velocity, ground).slide;
-        if likely.times(slide) >= S::ZERO { likely } else { likely.opposite() }
+        // At the limit of sticking the acceleration of the one is zero to rounding, and the other way friction opposes it.
+        let gain = |way: Sign| way.times(self.sliding(side, way, rotation, velocity, ground).slide);
+        if gain(likely) >= gain(likely.opposite()) { likely } else { likely.opposite() }
     }
 
     /// [`SlidingSystem::settle`], shown to `observer`.

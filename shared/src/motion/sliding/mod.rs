@@ -261,12 +261,11 @@ impl<S: Real> SlidingSystem<S> {
             self.lift_off(state, time, observer);
             return time;
         }
-        let weak = landing.velocity.abs() <= self.rest_speed;
-        let ends = if weak { self.rest(state, ground, time, duration, observer) } else { time };
         if state.contact != before {
-            observer.event(Event::Slip, ends, &state.motion);
+            observer.event(Event::Slip, time, &state.motion);
         }
-        ends
+        let weak = landing.velocity.abs() <= self.rest_speed;
+        if weak { self.rest(state, ground, time, duration, observer) } else { time }
     }
 
     /// After an impact that leaves hardly any speed: rest, a slide on the whole base, or uplift again.
@@ -280,12 +279,10 @@ impl<S: Real> SlidingSystem<S> {
     ) -> S {
         let (here, speed) = (ground.at(time), state.motion.velocity.abs());
         if state.slip != S::ZERO {
-            let direction = Sign::of(state.slip, Sign::Positive);
-            state.contact = Contact::Slides(direction);
             if self.friction <= self.uplift {
                 state.motion = state.motion.rested(state.motion.impacts);
             } else if speed == S::ZERO {
-                self.tip(state, direction, time, observer);
+                self.tip(state, Sign::of(state.slip, Sign::Positive), time, observer);
             }
             return time;
         }
@@ -307,7 +304,10 @@ impl<S: Real> SlidingSystem<S> {
         let negligible = speed <= self.rest_speed * S::EPSILON || state.contact != Contact::Sticks;
         let Some(ends) = tail.rest(time, duration, negligible, |at| self.stands(ground.at(at))) else { return time };
         state.motion = state.motion.rested(state.motion.impacts + tail.impacts);
-        state.contact = Contact::Sticks;
+        if state.contact != Contact::Sticks {
+            state.contact = Contact::Sticks;
+            observer.event(Event::Slip, ends, &state.motion);
+        }
         observer.event(Event::Rest, ends, &state.motion);
         ends
     }

@@ -114,6 +114,7 @@ fn effects_are_listed_and_shown() {
         "vertical",
         "impact",
         "scatter",
+        "sliding",
         "flywheel",
         "engagement",
         "clutch",
@@ -275,4 +276,33 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(!output.status.success() && error.contains("block.restitution_scatter"), "{error}");
     assert_eq!(error.trim().lines().count(), 1, "{error}");
+}
+
+#[test]
+fn a_base_that_slides_is_an_outcome_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("newmark.toml");
+    let text = "[block]\nsize_m = 1.0\nslenderness_deg = 23.0\nfriction_coefficient = 0.15\nrestitution = \"geometric\"\n[[device]]\nkind = \"none\"\n\
+        [[ground]]\nmotion = \"rectangular\"\namplitude_g = 0.4\nduration_s = 0.5\n";
+    fs::write(&path, text).unwrap();
+    let out = folder.path().join("out");
+    let output = sprag(&["simulate", path.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // A (A − μ) g T²/(2μ).
+    let newmark = 0.4 * 0.25 * 9.80665 * 0.25 / 0.3;
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        said.contains(&format!("the base slides from 0.000 s on: {newmark:.4} m at most, -{newmark:.4} m at the end")),
+        "{said}"
+    );
+    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    let run = &summary["runs"][0];
+    assert_eq!((&run["outcome"], &run["sliding"]["outcome"]), (&"no-rocking".into(), &"slides".into()));
+    for (key, sign) in [("peak_slide_m", 1.0), ("residual_displacement_m", -1.0)] {
+        assert!((run["sliding"][key].as_f64().unwrap() - sign * newmark).abs() < 1e-9, "{run}");
+    }
+    let history = fs::read_to_string(out.join("history.csv")).unwrap();
+    assert!(history.lines().next().unwrap().ends_with(",engaged,displacement_m"));
+    let last: f64 = history.lines().last().unwrap().rsplit(',').next().unwrap().parse().unwrap();
+    assert!((last + newmark).abs() < 1e-9, "{last}");
 }

@@ -234,6 +234,7 @@ mod tests {
             impulses: Impulses::default(),
             checks: None,
             energy: Some(EnergyReport { entries, history }),
+            sliding: None,
             error: None,
             history: History::default(),
         }

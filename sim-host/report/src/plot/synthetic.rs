@@ -49,6 +49,7 @@ fn train(device: &str, outcome: &str, count: usize, height: impl Fn(f64) -> f64)
         frequency_parameter_1_s: P_1_S,
         samples,
         impacts_s,
+        slides: false,
     }
 }
 

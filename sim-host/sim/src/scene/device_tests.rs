@@ -77,6 +77,35 @@ fn impacts_that_differ_go_beyond_the_ideal_device() {
 }
 
 #[test]
+fn a_base_slides_only_under_a_block_alone() {
+    let alone = ["device=[{ kind = 'none' }]", "block.friction_coefficient=0.4", "block.geometry=full"];
+    let with = |more: &[&'static str]| [&alone[..], more].concat();
+    let scene = parsed(&alone).unwrap_or_else(|error| panic!("{error}"));
+    assert!(!scene.is_ideal(0) && scene.plain_block(0).is_none() && scene.hybrid_system(0).is_none());
+    assert_eq!(scene.first_beyond_ideal().as_deref(), Some("block.friction_coefficient"));
+    refused(
+        &["block.friction_coefficient=0.4", "block.geometry=full"],
+        &["block.friction_coefficient", "the support of device.1 does not slide"],
+    );
+    for (more, words) in [
+        (&["block.friction_coefficient=0"][..], &["block.friction_coefficient is 0", "above 0"][..]),
+        (&["block.friction_coefficient=1.4"], &["block.friction_coefficient is 1.4", "1.333 for a rectangle"]),
+        (&["block.friction_coefficient=11"], &["block.friction_coefficient is 11", "above 0, to 10"]),
+        (&["block.restitution=0.99"], &["block.restitution is 0.99", "at most that of the block's momentum"]),
+        (&["block.geometry=slender"], &["block.friction_coefficient", "exact geometry"]),
+        (&["block.restitution_scatter=0.02"], &["block.friction_coefficient", "scatter"]),
+        (&["checks={ friction_coefficient = 0.4 }"], &["checks", "block.friction_coefficient lets it"]),
+        (&["output.energy=true"], &["output.energy", "block.friction_coefficient"]),
+        (&["accuracy.level=fast"], &["accuracy.level", "Runge-Kutta", "accuracy.step_ratio"]),
+        (&["accuracy.step_ratio=1e-3"], &["accuracy.method", "runge-kutta-4"]),
+        (&["accuracy={ method = 'semi-implicit-euler', step_ratio = 1e-3 }"], &["ideal devices only"]),
+    ] {
+        refused(&with(more), words);
+    }
+    assert!(parsed(&with(&["accuracy={ method = 'runge-kutta-4', step_ratio = 1e-3, precision = 'f32' }"])).is_ok());
+}
+
+#[test]
 fn engagements_and_losses_are_the_drivetrains() {
     assert_eq!(device(2, "engagement=rigid").drivetrain.engagement, Engagement::Rigid);
     assert_eq!(device(2, "engagement=overrunning").drivetrain.engagement, Engagement::Overrunning);

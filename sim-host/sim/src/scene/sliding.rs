@@ -17,7 +17,7 @@ pub const STEP_RATIO: f64 = 1e-3;
 /// [`SceneError`] names the key and the reason.
 pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], friction: f64, key: &KeyOf<'_>) -> Result<(), SceneError> {
     let name = "block.friction_coefficient";
-    key(name).require(friction, friction > 0.0 && friction <= 10.0, "above 0, at most 10")?;
+    key(name).require(friction, friction > 0.0 && friction <= 10.0, "above 0, to 10")?;
     if let Some(index) = devices.iter().position(|device| device.device.kind != DeviceKind::None) {
         let reason =
             format!("the support of device.{index} does not slide with the block; only a block without a device may slide");

@@ -1,6 +1,6 @@
 //! The effects that a study of sensitivity turns on, each at a stated, typical value.
 
-use sprag_sim::scene::device::Kind;
+use sprag_sim::scene::device::{DeviceTable, Kind};
 
 /// One change of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -17,17 +17,20 @@ pub struct Variant {
     pub of_pair: &'static [&'static str],
     /// The ground moves vertically too.
     pub vertical: bool,
+    /// The scene has no device but the one that it is for, which is number 0 then.
+    pub alone: bool,
 }
 
 /// Vertical over horizontal acceleration where there is no vertical record: the ratio that codes take.
 pub const VERTICAL_RATIO: f64 = 2.0 / 3.0;
 
 const EVERY: &[Kind] = &[Kind::None, Kind::Inerter, Kind::ClutchedPair];
+const BARE: &[Kind] = &[Kind::None];
 const INERTERS: &[Kind] = &[Kind::Inerter, Kind::ClutchedPair];
 const PAIR: &[Kind] = &[Kind::ClutchedPair];
 
 const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind], changes: &'static [&'static str]) -> Variant {
-    Variant { effect, name, kinds, changes, of_pair: &[], vertical: false }
+    Variant { effect, name, kinds, changes, of_pair: &[], vertical: false, alone: false }
 }
 
 /// All of them, in the order of the registry of effects.
@@ -39,6 +42,8 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 ///   is a mode of shaft and flywheel at 140 p for a mass ratio of 0.5, 10 % its damping with gears and lubricant, 1 mm the play
 ///   of coarse gears after years. Released flywheels stop at once, as the ideal ones do, so that the clutch alone differs.
 /// - Scatter: 0.02 is a fifth of what separates the restitution of the block's geometry from the paper's; one seed of many.
+/// - Sliding: 0.4 is the lower end of what steel or stone has on concrete (0.4 to 0.6).
+/// - Foundation: 10 Hz is the vertical frequency of a footing on medium sand, 5 Hz on soft clay; radiation into the soil damps it by 0.2 to 0.5.
 /// - Support: a wall whose own frequency is 2.5 times that of the motion amplifies it by 1/(1 - 0.4²) = 1.19; base-slab averaging and
 ///   embedment of a building reduce it by as much (FEMA 440).
 ///   5 Hz is the first mode of a stiff wall or braced frame of one storey, 2 Hz that of an open steel frame; 5 % and 2 % are the damping
@@ -52,7 +57,7 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 ///   poor sensor.
 /// - Weight: a flywheel of 0.02 of the block's mass and seven times its pinion's radius has a mass ratio of 0.5; the rack has
 ///   half of that mass.
-pub const VARIANTS: [Variant; 27] = [
+pub const VARIANTS: [Variant; 32] = [
     variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
     Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
     variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
@@ -63,6 +68,19 @@ pub const VARIANTS: [Variant; 27] = [
         EVERY,
         &["block.restitution_scatter=0.02", "block.restitution_seed=1"],
     ),
+    variant(
+        "foundation",
+        "vertical frequency 10 Hz, ζ = 0.3",
+        EVERY,
+        &["block.foundation={ vertical_frequency_hz = 10, damping_ratio = 0.3 }"],
+    ),
+    variant(
+        "foundation",
+        "vertical frequency 5 Hz, ζ = 0.3",
+        EVERY,
+        &["block.foundation={ vertical_frequency_hz = 5, damping_ratio = 0.3 }"],
+    ),
+    Variant { alone: true, ..variant("sliding", "μ = 0.4", BARE, &["block.friction_coefficient=0.4"]) },
     variant("support", "amplifies the ground by 20 %", INERTERS, &["device.N.support_amplification=1.2"]),
     variant("support", "reduces the ground by 20 %", INERTERS, &["device.N.support_amplification=0.8"]),
     variant(
@@ -187,6 +205,18 @@ impl Variant {
         self.kinds.contains(&kind).then(|| changes.map(|change| change.replacen(".N.", &format!(".{index}."), 1)).collect())
     }
 
+    /// `KEY=VALUE` that leave a scene with the devices of `table` only, for a variant that is for one device `alone`.
+    ///
+    /// # Errors
+    /// In words.
+    pub fn isolated(&self, table: &DeviceTable) -> Result<Option<String>, String> {
+        if !self.alone {
+            return Ok(None);
+        }
+        let device = toml::Value::try_from([table]).map_err(|error| error.to_string())?;
+        Ok(Some(format!("device={device}")))
+    }
+
     /// Effect and name in one.
     pub fn label(&self) -> String {
         format!("{}: {}", self.effect, self.name)
@@ -208,9 +238,12 @@ mod tests {
         let base = Scene::load(path, &[]).unwrap();
         for variant in &VARIANTS {
             for (index, table) in base.file.device.iter().enumerate() {
-                let Some(overrides) = variant.overrides(index, table.kind) else {
+                let Some(mut overrides) = variant.overrides(index, table.kind) else {
                     continue;
                 };
+                let isolated = variant.isolated(table).unwrap();
+                let index = if isolated.is_some() { 0 } else { index };
+                overrides.splice(0..0, isolated);
                 let scene = Scene::load(path, &overrides).unwrap_or_else(|error| panic!("{}: {error}", variant.label()));
                 if variant.effect == "together" || variant.vertical {
                     continue;

@@ -2,6 +2,9 @@
 
 use super::body::{Body, State, root, solve};
 
+/// By which a mode may contradict itself and still be the one that follows, m/s².
+const ROUNDING: f64 = 1e-9;
+
 /// What touches the ground: a corner (1 right, −1 left) or the whole base, and the direction in which it slides (0 where it sticks).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
@@ -72,14 +75,21 @@ impl Mode {
     }
 }
 
-/// The mode in which the body goes on, of those that its position and speed leave: the one that contradicts itself least. `None` where all do.
-pub fn find(body: &Body, state: &State, corner: Option<f64>, slip: f64, field: [f64; 2]) -> Option<Mode> {
-    let corners: Vec<Option<f64>> = if corner.is_some() { vec![corner] } else { vec![None, Some(1.0), Some(-1.0)] };
-    let ways: Vec<f64> = if slip == 0.0 { vec![0.0, 1.0, -1.0] } else { vec![slip.signum()] };
+/// The mode in which the body goes on, of those that its corner on the ground and its slip leave, but for the one that is `barred`: the first that does
+/// not contradict itself, the simplest first, or but for rounding the one that does least. `None` where all do.
+pub fn find(
+    body: &Body,
+    state: &State,
+    (corner, slip): (Option<f64>, f64),
+    barred: Option<Mode>,
+    field: [f64; 2],
+) -> Option<Mode> {
+    let corners = if corner.is_some() { vec![corner] } else { vec![None, Some(1.0), Some(-1.0)] };
+    let ways = if slip == 0.0 { vec![0.0, 1.0, -1.0] } else { vec![slip.signum()] };
     let modes = corners.into_iter().flat_map(|corner| ways.iter().map(move |&slides| Mode { corner, slides }));
+    let modes = modes.filter(|mode| Some(*mode) != barred);
     let judged: Vec<(Mode, f64)> = modes.map(|mode| (mode, mode.margin(body, state, field, slip == 0.0))).collect();
-    let best = judged.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })?;
-    // The first that holds, in the order in which the simplest comes first.
-    let holds = judged.iter().find(|(_, margin)| *margin >= 0.0).copied();
-    holds.or((best.1 > -1e-9).then_some(best)).map(|(mode, _)| mode)
+    let holds = judged.iter().find(|(_, margin)| *margin >= 0.0);
+    let best = || judged.iter().reduce(|a, b| if b.1 > a.1 { b } else { a }).filter(|(_, margin)| *margin > -ROUNDING);
+    holds.or_else(best).map(|(mode, _)| *mode)
 }

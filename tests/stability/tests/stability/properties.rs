@@ -152,7 +152,7 @@ fn orderly<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), T
         prop_assert!(run.tally.rebound <= structure.restitution().expect("within range") + 4.0 * S::EPSILON.to_f64());
         let end = run.end();
         prop_assert!(end.side.times(end.rotation) >= S::ZERO && end.rotation.is_finite());
-        let [uplifts, _, _, _, _, rests, overturned] = run.tally.events;
+        let [uplifts, _, _, _, _, rests, overturned, _] = run.tally.events;
         prop_assert!(overturned <= 1 && rests <= uplifts && uplifts <= rests + 1, "{:?}", run.tally);
     }
     Ok(())

@@ -9,6 +9,7 @@ use std::vec::Vec;
 
 use super::{GroundPair, SlidingState, SlidingSystem};
 use crate::ground::{AnySegment, GroundSegment, Harmonics, Linear};
+use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
@@ -54,8 +55,12 @@ struct Seen {
 }
 
 impl Observer<f64> for Seen {
+    fn interval(&mut self, output: &dyn DenseOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.peaks.interval(output, interval);
+    }
+
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.peaks.interval(output.motion(), interval);
+        self.interval(output.motion(), interval);
         let motion = output.motion().at(interval.to);
         let time = self.origin + interval.start + interval.to;
         self.ends.push((time, motion.rotation, motion.velocity, output.displacement(interval.to)));
