@@ -11,9 +11,11 @@ from .structure import (
     Device,
     Flywheel,
     FlywheelLosses,
+    Foundation,
     Inerter,
     NoDevice,
     Rack,
+    SupportRecord,
     Weight,
 )
 
@@ -34,6 +36,7 @@ __all__ = [
     "Encoder",
     "Flywheel",
     "FlywheelLosses",
+    "Foundation",
     "Gear",
     "Gyroscope",
     "HalfSine",
@@ -47,5 +50,6 @@ __all__ = [
     "Ricker",
     "Sensors",
     "Sine",
+    "SupportRecord",
     "Weight",
 ]

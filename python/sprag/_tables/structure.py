@@ -10,6 +10,30 @@ from .._table import Table
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
+class Foundation(Table):
+    """Compliant base: a spring and a dashpot under each toe; rigid ground without it.
+
+    Attributes
+    ----------
+    vertical_frequency_hz
+        Natural frequency of the block moving up and down on both feet, √(2k/m)/2π. Impacts end: the dashpots
+        take what block.restitution took; from 0.5 to 1000.
+    damping_ratio
+        Damping ratio of that motion, c/√(2km); from 0 to 2.
+
+    Raises
+    ------
+    InputError
+        For a value outside its range.
+    """
+
+    _path: ClassVar[str] = "block.foundation"
+
+    vertical_frequency_hz: float
+    damping_ratio: float
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Block(Table):
     """The block that rocks.
 
@@ -40,6 +64,8 @@ class Block(Table):
     friction_coefficient
         Coefficient of friction μ under a block without a device, static and kinetic: the base slides where it
         is exceeded; without it never; above 0, to 10.
+    foundation
+        Compliant base: a spring and a dashpot under each toe; rigid ground without it.
     initial_rotation_ratio
         Rotation at the start, θ/α; from -10 to 10; 0.0 by default.
     initial_velocity_ratio
@@ -63,6 +89,7 @@ class Block(Table):
     restitution_scatter: float | None = None
     restitution_seed: int | None = None
     friction_coefficient: float | None = None
+    foundation: Foundation | None = None
     initial_rotation_ratio: float | None = None
     initial_velocity_ratio: float | None = None
 

@@ -115,6 +115,11 @@ impl ControllerState {
     pub fn spins(&self) -> [f32; 2] {
         self.turns.spins
     }
+
+    /// Velocity that the ground has lately gained, g/p ([`Situation::ground_drift`]).
+    pub fn ground_drift(&self) -> f32 {
+        self.drift
+    }
 }
 
 /// Inputs of a tick besides the readings.
@@ -193,9 +198,16 @@ impl<L: Law> Controller<L> {
         supervisor.restart();
     }
 
-    /// Resumes after a reset in mid-motion, with the `calibration` of before, flywheels that had these `spins`, and the first `sample` after
-    /// it. Whether the block stands or rocks, and where, is what encoder and gyroscope say.
-    pub fn resume(&self, state: &mut ControllerState, calibration: &Calibration, spins: [f32; 2], sample: &Sample) {
+    /// Resumes after a reset in mid-motion, with the `calibration`, the `spins` of the flywheels and the `ground_drift` of before, and the first
+    /// `sample` after it. Whether the block stands or rocks, and where, is what encoder and gyroscope say.
+    pub fn resume(
+        &self,
+        state: &mut ControllerState,
+        calibration: &Calibration,
+        spins: [f32; 2],
+        ground_drift: f32,
+        sample: &Sample,
+    ) {
         let counts = sample.encoder.counts.wrapping_sub(calibration.encoder_zero);
         let travel = counts as f32 * self.instruments.travel_per_count;
         let rate = sample.gyroscope.value - calibration.gyroscope;
@@ -206,7 +218,7 @@ impl<L: Law> Controller<L> {
         self.restart(state);
         // The tick that follows takes the same sample, after moving the estimate on by a period.
         state.estimator = EstimatorState::met(rotation - velocity * self.instruments.period, velocity);
-        state.turns.spins = spins;
+        (state.turns.spins, state.drift) = (spins, ground_drift);
         state.clutches = ClutchPositions::met(sample.engaged);
         self.supervisor.resume(&mut state.supervisor, calibration);
     }

@@ -357,7 +357,8 @@ impl Device {
     fn go_on(&mut self, whole: bool) -> bool {
         let Some(retained) = &self.resuming else { return true };
         if whole {
-            self.controller.resume(&mut self.state, &retained.calibration, retained.spins, &self.sample);
+            let Retained { calibration, spins, ground_drift, .. } = retained;
+            self.controller.resume(&mut self.state, calibration, *spins, *ground_drift, &self.sample);
         } else if self.waited < ticks(RESUME_PATIENCE, self.controller.instruments.period) {
             self.waited += 1;
             return false;
@@ -390,6 +391,7 @@ impl Device {
             None => Retained {
                 calibration: *self.state.calibration(),
                 spins: self.state.spins(),
+                ground_drift: self.state.ground_drift(),
                 counts: self.sample.encoder.counts,
                 // By other settings it must not resume.
                 deciding: self.lasting && matches!(self.decision.phase, Phase::Armed | Phase::Rocking),

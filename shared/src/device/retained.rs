@@ -6,7 +6,7 @@ use crate::link::Pace;
 use crate::math::fnv::{FOLD_BASIS, fold};
 
 /// Words of the retained state.
-pub const RETAINED_WORDS: usize = 12;
+pub const RETAINED_WORDS: usize = 13;
 
 /// Resets in a row from which a device resumes; one more, and it starts from the beginning, in its safe state.
 pub const MOST_RESTARTS: u8 = 5;
@@ -18,6 +18,8 @@ pub struct Retained {
     pub calibration: Calibration,
     /// Believed speeds of the flywheels, over R, 1/s.
     pub spins: [f32; 2],
+    /// Velocity that the ground has lately gained, g/p ([`crate::control::law::Situation::ground_drift`]).
+    pub ground_drift: f32,
     /// Last count of the encoder, which a reset sets to 0.
     pub counts: i32,
     /// The controller was Armed or Rocking: it may resume.
@@ -57,6 +59,7 @@ impl Retained {
             encoder_zero as u32,
             first,
             second,
+            self.ground_drift.to_bits(),
             self.counts as u32,
             flags,
             !flags,
@@ -79,6 +82,7 @@ impl Retained {
             encoder_zero,
             first,
             second,
+            ground_drift,
             counts,
             flags,
             inverse,
@@ -100,6 +104,7 @@ impl Retained {
                 encoder_zero: encoder_zero as i32,
             },
             spins: [first, second].map(f32::from_bits),
+            ground_drift: f32::from_bits(ground_drift),
             counts: counts as i32,
             deciding: flags >> 16 & 0xFF != 0,
             attached,
@@ -140,6 +145,7 @@ mod tests {
         Retained {
             calibration: Calibration { gyroscope: 0.01, block: [0.1, -0.2], ground: [-0.3, 0.4], encoder_zero: -12_345 },
             spins: [0.5, -0.25],
+            ground_drift: 0.125,
             counts: i32::MIN,
             deciding: true,
             attached: Some(Pace::Sample),

@@ -35,9 +35,9 @@ fn it_resumes_where_it_was() {
         let [calibration, before] = [&again, &steady].map(|bench| bench.device.retained().calibration);
         assert_eq!(calibration, before);
     }
-    // As near to the truth as one that was not interrupted, but that an impact may be taken a tick earlier or later, which is worth 15 % of some
-    // 0.3 rad/s for that tick.
-    assert!(worst[0] < 1e-6 && worst[1] < 0.05, "{worst:?}");
+    // As near to the truth as one that was not interrupted, but that an impact, or a flywheel that is taken on, may come a tick earlier or later,
+    // which is worth a quarter of some 0.3 rad/s for that tick.
+    assert!(worst[0] < 1e-5 && worst[1] < 0.1, "{worst:?}");
 }
 
 /// As on a board: after the reset its inertial sensors give nothing for some ticks, while the encoder counts from the first one on.

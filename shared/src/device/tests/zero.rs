@@ -112,8 +112,8 @@ fn counts_lost_over_a_reset_are_found_at_an_impact() {
             }
             let lost = again.rig.clone().sample().encoder.counts - before;
             let healed = heal(&mut again, lost);
-            // To the impact and, seen in two readings, a millisecond on; or to the second, where the first came while a clutch engaged.
-            assert!(healed.half_cycles <= 3 && healed.last < 1e-3, "phase {phase}, {boot} ticks: {lost} counts, {healed:?}");
+            // To the impact and, seen in two readings, a millisecond on; or to a later one, where earlier ones came while a clutch engaged.
+            assert!(healed.half_cycles <= 4 && healed.last < 1e-3, "phase {phase}, {boot} ticks: {lost} counts, {healed:?}");
             assert!(healed.stands, "phase {phase}, {boot} ticks: {lost} counts, {healed:?}");
         }
     }
