@@ -72,13 +72,11 @@ impl Seen {
     }
 }
 
-/// `state` over the ground motions `pieces` with their durations (s).
-fn follow(
-    system: &CompliantSystem<f64>,
-    state: &mut CompliantState<f64>,
-    pieces: &[(AnySegment<f64>, Option<AnySegment<f64>>, f64)],
-    step: f64,
-) -> Seen {
+/// Horizontal and vertical ground motion, and its duration (s).
+type Piece = (AnySegment<f64>, Option<AnySegment<f64>>, f64);
+
+/// `state` over `pieces` in steps of `step` (s).
+fn follow(system: &CompliantSystem<f64>, state: &mut CompliantState<f64>, pieces: &[Piece], step: f64) -> Seen {
     let mut seen = Seen::default();
     for (horizontal, vertical, duration) in pieces {
         let ground = GroundPair { horizontal, vertical: vertical.as_ref().map(|up| up as &dyn GroundSegment<f64>) };
@@ -105,7 +103,10 @@ fn energy(system: &CompliantSystem<f64>, state: &CompliantState<f64>) -> f64 {
     let kinetic = 0.5 * (mass * velocity * velocity + state.rise * state.rise);
     let springs: f64 = (0..2)
         .filter(|&foot| state.feet[foot] == Foot::Presses)
-        .map(|foot| 0.5 * system.stiffness * system.foot(&state.place(), side, foot).0.powi(2))
+        .map(|foot| {
+            let compression = system.foot(&state.place(), side, foot).0;
+            0.5 * system.stiffness * compression * compression
+        })
         .sum();
     kinetic + system.gravity() * state.height + springs + state.spent
 }
@@ -119,7 +120,8 @@ fn on_ground_that_does_not_move_it_stands_still() {
     assert!(seen.events.is_empty() && state.stands() && state.motion.phase == Phase::Rest);
     assert!(state.motion.rotation == 0.0 && (state.height - start.height).abs() < 1e-15);
     // Both feet share the weight: each sinks by g/ω_v².
-    let sunk = crate::structure::block::GRAVITY / (core::f64::consts::TAU * 8.0).powi(2) / 1.5;
+    let omega = core::f64::consts::TAU * 8.0;
+    let sunk = crate::structure::block::GRAVITY / (omega * omega) / 1.5;
     assert!((start.height + sunk).abs() < 1e-15);
 }
 

@@ -4,6 +4,11 @@ use super::explanation::{Effects, Explanation};
 use super::*;
 
 const ALL: &str = include_str!("../../../../tests/fuzz/seeds/scene/effects.toml");
+/// What a scene with those cannot have.
+const BASES: [&str; 2] = [
+    include_str!("../../../../tests/fuzz/seeds/scene/sliding.toml"),
+    include_str!("../../../../tests/fuzz/seeds/scene/foundation.toml"),
+];
 
 #[test]
 fn every_effect_is_complete_and_has_a_name_of_its_own() {
@@ -47,8 +52,9 @@ fn an_ideal_scene_turns_nothing_on_and_one_of_everything_turns_all_on() {
         assert!(text.contains("ideal: the device's state follows from the block's"), "{text}");
     }
     let scene = Scene::parse_with(ALL, "scene", &["block.geometry=slender".to_owned()]).unwrap();
-    let devices = (0..scene.devices.len()).flat_map(|index| Effects::of_device(&scene, index).on);
-    let on: Vec<_> = Effects::of_scene(&scene).on.into_iter().chain(devices).collect();
+    let scenes: Vec<Scene> = BASES.iter().map(|text| Scene::parse(text, "scene").unwrap()).chain([scene]).collect();
+    let devices = scenes.iter().flat_map(|scene| (0..scene.devices.len()).flat_map(|index| Effects::of_device(scene, index).on));
+    let on: Vec<_> = scenes.iter().flat_map(|scene| Effects::of_scene(scene).on).chain(devices).collect();
     for effect in EFFECTS {
         let setting = on.iter().find(|setting| setting.effect.name == effect.name);
         let setting = setting.unwrap_or_else(|| panic!("{} is never on", effect.name));
