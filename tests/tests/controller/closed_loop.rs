@@ -148,7 +148,8 @@ fn the_first_motion_decides_which_flywheel_resists() {
 #[test]
 fn a_mirrored_motion_has_a_mirrored_run() {
     for shape in ["sine", "cosine"] {
-        let variant = Variant::new("mirrored", &BRAKED);
+        // `costate` reads the rotation, whose last bits at an impact are not mirrored where a motion has died to 1e-8 rad.
+        let variant = Variant::new("mirrored", &BRAKED).with(EQUATION_10);
         let [one, other] = [3.0, -3.0].map(|amplitude| watched(&Motion::Pulse { shape, frequency: 4.0, amplitude }, &variant).0);
         assert_eq!(one.len(), other.len());
         for (one, other) in one.iter().zip(&other) {

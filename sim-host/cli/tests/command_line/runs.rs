@@ -115,6 +115,7 @@ fn effects_are_listed_and_shown() {
         "impact",
         "scatter",
         "sliding",
+        "foundation",
         "flywheel",
         "engagement",
         "clutch",

@@ -5,11 +5,16 @@ use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses, Support};
 use sprag_shared::structure::mount::Mount;
 
+use super::block::FOUNDATION;
 use super::explanation::Subject;
 use super::number::number;
 
 /// Lines: the equation, what its letters are, and their numbers.
 pub(super) fn motion(subject: &Subject<'_>) -> Vec<String> {
+    if subject.scene.file.block.foundation.is_some() {
+        let equation = FOUNDATION.equation.iter().map(|line| (*line).to_owned());
+        return equation.chain(["δ = α − |θ|,  s = sgn θ".to_owned()]).chain(numbers(subject)).collect();
+    }
     let mut lines = vec![format!("{} = {}", inertia(subject), forces(subject)), "δ = α s − θ,  s = sgn θ".to_owned()];
     lines.extend(resistance(subject));
     if subject.has_inerter() {

@@ -62,6 +62,13 @@ fn an_ideal_scene_turns_nothing_on_and_one_of_everything_turns_all_on() {
     }
 }
 
+#[test]
+fn on_feet_the_equation_is_that_of_feet() {
+    let [_, foundation] = BASES.map(|text| Scene::parse(text, "scene").unwrap());
+    let text = text_of(&Explanation::of(&foundation, 0));
+    assert!(text.contains("ÿ = φ₁ + φ₂") && text.contains("no impact") && !text.contains("λ θ̈ ="), "{text}");
+}
+
 fn text_of(explanation: &Explanation) -> String {
     explanation.sections.iter().flat_map(|section| &section.lines).map(|line| format!("{line}\n")).collect()
 }
