@@ -4,6 +4,7 @@
 mod asked;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects hold clutches"))]
 pub mod coil_use;
+#[cfg(feature = "effects")]
 mod compliant;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
@@ -18,7 +19,7 @@ mod machine;
 pub mod recorder;
 pub mod run;
 pub mod scatter;
-#[cfg_attr(not(feature = "effects"), path = "no_machine.rs")]
+#[cfg(feature = "effects")]
 mod sliding;
 pub mod sliding_report;
 pub mod step_end;

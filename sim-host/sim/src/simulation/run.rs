@@ -16,7 +16,9 @@ use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
 use super::watchers::Watchers;
-use super::{compliant, ideal, machine, sliding};
+#[cfg(feature = "effects")]
+use super::{compliant, sliding};
+use super::{ideal, machine};
 use crate::accuracy::answer::Comparable;
 use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
@@ -176,10 +178,12 @@ impl<'a> Task<'a> {
     /// Run of the device.
     pub fn run(&self) -> Result<DeviceRun, Failure> {
         match self.scene.file.block.base() {
+            #[cfg(feature = "effects")]
             Base::Friction(_) => sliding::run(self),
+            #[cfg(feature = "effects")]
             Base::Compliant(_) => compliant::run(self),
             Base::Rigid if self.is_ideal() => ideal::run(self),
-            Base::Rigid => machine::run(self),
+            _ => machine::run(self),
         }
     }
 
