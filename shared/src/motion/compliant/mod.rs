@@ -2,7 +2,7 @@
 //!
 //! The block turns by θ and its centre of mass rises by y; the toe about which it turns, or would turn, does not slide. Each toe's foot presses on the ground
 //! while its spring is compressed and its force is positive. There are no impacts: a toe that comes down meets its dashpot. For stiff feet the
-//! motion is that of the rigid block on rigid ground. [`balance`] has the equations, [`stretch`] a step: the Runge-Kutta method, taken again with a shorter length where
+//! motion is that of the rigid block on rigid ground. `balance` has the equations, `stretch` a step: the Runge-Kutta method, taken again with a shorter length where
 //! an event lies inside. What the ends of a step do not show is not seen.
 //!
 //! Source: the two-spring foundation of Psycharis and Jennings (1983), with the full geometry; see [docs/modes.md](../../../../docs/modes.md). The room imports what is directly in

@@ -1,7 +1,7 @@
 //! Event-driven integration of a block without a device whose base may slide: Coulomb friction at the toe, with rocking.
 //!
-//! Four modes: it stands, slides on its whole base, rocks about a toe that sticks, or about one that slides. [`balance`] has the accelerations and
-//! reactions of each, [`landing`] the impact. Steps are those of the Runge-Kutta method; an event inside one is located by taking the step
+//! Four modes: it stands, slides on its whole base, rocks about a toe that sticks, or about one that slides. `balance` has the accelerations and
+//! reactions of each, `landing` the impact. Steps are those of the Runge-Kutta method; an event inside one is located by taking the step
 //! again with a shorter length. What the ends of a step do not show, such as friction that is exceeded for less than a step, is not seen.
 //!
 //! Equations and sources: [docs/modes.md](../../../../docs/modes.md). The room imports what is directly in `motion`, `motion::rest`, and every
