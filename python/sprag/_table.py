@@ -7,6 +7,9 @@ from typing import Any, ClassVar
 
 from . import _core
 
+# What a table of the scene needs so that one inside it can be checked.
+NEEDED: dict[str, dict[str, Any]] = {"block": {"slenderness_deg": 10.0}, "device": {"kind": "clutched-pair"}}
+
 
 class Table:
     """A table of a scene: checked when it is made, and the same wherever it is used."""
@@ -23,9 +26,7 @@ class Table:
         first, *inner = self._path.split(".")
         for name in reversed(inner):
             keys = [keys] if name == "0" else {name: keys}
-        if first == "device":
-            keys = {"kind": "clutched-pair", **keys}
-        _core.check_table(first, keys)
+        _core.check_table(first, NEEDED.get(first, {}) | keys)
 
     def _keys(self) -> dict[str, Any]:
         """The keys as a scene has them."""

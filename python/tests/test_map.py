@@ -32,10 +32,10 @@ def test_a_picture_shows_and_names_every_outcome(scenes: Path) -> None:
     colors = pytest.importorskip("matplotlib.colors")
     made = sprag.map(sprag.Scene.read(scenes / "figure08.toml"))
     axes = made.plot(device=2)
-    assert axes.get_legend_handles_labels()[1] == [outcome.words for outcome in sprag.Outcome]
+    assert axes.get_legend_handles_labels()[1] == [outcome.words for outcome in sprag.Outcome.of_studies()]
     cells = axes.collections[0]
     shown = cells.cmap(cells.norm(cells.get_array()))[..., :3]
-    wanted = np.array([colors.to_rgb(outcome.colour) for outcome in sprag.Outcome])
+    wanted = np.array([colors.to_rgb(outcome.colour) for outcome in sprag.Outcome.of_studies()])
     assert np.allclose(shown, wanted[made.outcome[2]])
 
 
