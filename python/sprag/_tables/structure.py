@@ -62,8 +62,8 @@ class Block(Table):
     restitution_seed
         Seed of what impacts draw; of several specimens that of the first; from 0; 0 by default.
     friction_coefficient
-        Coefficient of friction μ under a block without a device, static and kinetic: the base slides where it
-        is exceeded; without it never; above 0, to 10.
+        Coefficient of friction μ under a block without a device, static and kinetic; without it the base
+        never slides; above 0, to 10.
     foundation
         Compliant base: a spring and a dashpot under each toe; rigid ground without it.
     initial_rotation_ratio

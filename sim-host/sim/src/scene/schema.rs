@@ -102,7 +102,7 @@ pub struct BlockTable {
     /// Seed of what impacts draw; of several specimens that of the first.
     #[schemars(extend("default" = 0))]
     pub restitution_seed: Option<u64>,
-    /// Coefficient of friction μ under a block without a device, static and kinetic: the base slides where it is exceeded; without it never.
+    /// Coefficient of friction μ under a block without a device, static and kinetic; without it the base never slides.
     #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 10.0))]
     pub friction_coefficient: Option<f64>,
     /// Compliant base: a spring and a dashpot under each toe; rigid ground without it.
