@@ -15,3 +15,4 @@ pub mod rest;
 pub mod sliding;
 pub mod state;
 pub mod step_end;
+mod stepped;

@@ -19,7 +19,7 @@ use crate::motion::state::BlockState;
 
 /// What changes within a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Place<S> {
+pub(in crate::motion) struct Place<S> {
     pub rotation: S,
     pub velocity: S,
     pub height: S,
@@ -58,36 +58,36 @@ impl<S: Real> CompliantSystem<S> {
     }
 
     /// Compression over R of the foot with this number and the force that it would have, over mR; 1/s².
-    pub(super) fn foot(&self, place: &Place<S>, side: Sign, foot: usize) -> (S, S) {
-        let (compression, speed, _) = self.compression(place, side, foot);
+    pub(super) fn foot(&self, state: &CompliantState<S>, foot: usize) -> (S, S) {
+        let (compression, speed, _) = self.compression(state, foot);
         (compression, self.stiffness * compression + self.damping * speed)
     }
 
     /// Compression of a foot over R, its speed, and its slope over a = |θ|.
-    fn compression(&self, place: &Place<S>, side: Sign, foot: usize) -> (S, S, S) {
-        let away = side.times(place.rotation);
-        let speed = side.times(place.velocity);
-        let (sin_delta, cos_delta) = self.delta(side, place.rotation);
-        let (mut compression, mut slope) = (cos_delta - self.cos_slenderness - place.height, sin_delta);
+    fn compression(&self, state: &CompliantState<S>, foot: usize) -> (S, S, S) {
+        let BlockState { side, rotation, velocity, .. } = state.motion;
+        let (away, speed) = (side.times(rotation), side.times(velocity));
+        let (sin_delta, cos_delta) = self.delta(side, rotation);
+        let (mut compression, mut slope) = (cos_delta - self.cos_slenderness - state.height, sin_delta);
         if foot != usize::from(side == Sign::Positive) {
             let (sine, cosine) = away.sin_cos();
             let base = S::of(2.0) * self.sin_slenderness;
             (compression, slope) = (compression - base * sine, slope - base * cosine);
         }
-        (compression, slope * speed - place.rise, slope)
+        (compression, slope * speed - state.rise, slope)
     }
 
     /// Accelerations in the mode of `state`; `ground` is ü_g/g and the weight 1 + v̈_g/g.
     pub(super) fn balance(&self, state: &CompliantState<S>, ground: [S; 2]) -> Balance<S> {
-        let (BlockState { side, velocity, .. }, place) = (state.motion, state.place());
-        let (sin_delta, cos_delta) = self.delta(side, place.rotation);
+        let BlockState { side, rotation, velocity, .. } = state.motion;
+        let (sin_delta, cos_delta) = self.delta(side, rotation);
         let gravity = self.gravity();
         let (mut moment, mut lift, mut loss) = (-side.times(ground[0]) * gravity * cos_delta, -gravity * ground[1], S::ZERO);
         for foot in [0, 1] {
             if state.feet[foot] != Foot::Presses {
                 continue;
             }
-            let (compression, speed, slope) = self.compression(&place, side, foot);
+            let (compression, speed, slope) = self.compression(state, foot);
             let force = self.stiffness * compression + self.damping * speed;
             (moment, lift) = (moment - force * slope, lift + force);
             loss = loss + self.damping * speed * speed;

@@ -12,17 +12,15 @@ mod balance;
 pub mod resolve;
 mod stretch;
 
-use balance::Place;
 use stretch::{Guard, Stretch};
 
 use crate::equation::clutch_rule::ClutchRule;
-use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::method::step_grid::next_stop;
 use crate::motion::ground_pair::GroundPair;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::observer::{Event, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 
 /// Events at one instant after which the block goes a step without looking for more.
@@ -81,11 +79,6 @@ pub struct CompliantState<S> {
 }
 
 impl<S: Real> CompliantState<S> {
-    fn place(&self) -> Place<S> {
-        let BlockState { rotation, velocity, .. } = self.motion;
-        Place { rotation, velocity, height: self.height, rise: self.rise, spent: self.spent }
-    }
-
     fn stands(&self) -> bool {
         self.feet == [Foot::Presses; 2]
     }
@@ -168,33 +161,18 @@ impl<S: Real> CompliantSystem<S> {
     ) {
         if state.motion.rotation == S::ZERO && state.motion.velocity == S::ZERO {
             // Upright and at rest, it sets out the way it goes.
-            let velocity = Stretch::new(self, ground, state, *time, stop - *time).place(stop - *time).velocity;
+            let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
+            let velocity = stretch.state(stretch.length()).motion.velocity;
             state.motion.direction = Sign::of(velocity, state.motion.direction);
             (state.motion.side, state.motion.terminal_acceleration_sign) = (state.motion.direction, state.motion.direction);
             self.settle(state, ground, *time, observer);
         }
-        let stretch = Stretch::new(self, ground, state, *time, stop - *time);
-        let length = stretch.length();
-        let mut found: Option<(S, Guard)> = None;
-        for guard in Guard::ALL.into_iter().filter(|_| look) {
-            let value = |t: S| stretch.guard(guard, t, limits.overturned);
-            if value(length) < S::ZERO {
-                let at = illinois(S::ZERO, length, Sign::Positive, value);
-                found = found.filter(|(first, _)| *first <= at).or(Some((at, guard)));
-            }
-        }
-        let until = found.map_or(length, |(at, _)| at);
-        let place = stretch.place(until);
-        if until > S::ZERO {
-            let BlockState { side, direction, .. } = state.motion;
-            let (first, last) = (stretch.motion(S::ZERO), stretch.motion(until));
-            let (start, from) = (*time, S::ZERO);
-            let interval = MonotoneInterval { start, from, to: until, first, last, engaged: state.engaged, side, direction };
-            observer.device_interval(&stretch, &interval);
-        }
-        (state.motion.rotation, state.motion.velocity) = (place.rotation, place.velocity);
-        (state.height, state.rise, state.spent) = (place.height, place.rise, place.spent);
-        let Some((_, guard)) = found else {
+        let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
+        let guards = Guard::ALL.into_iter().filter(|_| look);
+        let (until, found) = stretch.first(guards, |guard, at| stretch.guard(guard, at, limits.overturned));
+        stretch.show(until, state.engaged, observer);
+        *state = stretch.state(until);
+        let Some(guard) = found else {
             *time = stop;
             return;
         };
@@ -225,8 +203,7 @@ impl<S: Real> CompliantSystem<S> {
     /// The next mode of the foot with this number, whose guard has come to zero.
     fn step_foot(&self, state: &mut CompliantState<S>, foot: usize, time: S, observer: &mut dyn Observer<S>) {
         let stood = state.stands();
-        let place = state.place();
-        let (compression, force) = self.foot(&place, state.motion.side, foot);
+        let (compression, force) = self.foot(state, foot);
         state.feet[foot] = match state.feet[foot] {
             Foot::Presses if compression > S::ZERO => {
                 // What the spring still holds, its own dashpot takes.

@@ -1,13 +1,13 @@
-//! One step of a block on its feet: the classical Runge-Kutta method, taken again for every instant inside the step.
+//! One step of a block on its feet: its rates, and what ends its mode.
 
 use super::balance::{Balance, Place};
 use super::{CompliantState, CompliantSystem, Foot};
 use crate::drivetrain::transmission::Account;
-use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
-use crate::motion::ground_pair::GroundPair;
+use crate::motion::state::BlockState;
+use crate::motion::stepped::{self, Mode};
 
 /// A function that is positive for as long as nothing happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,99 +30,64 @@ impl Guard {
 }
 
 /// Dense output of a step.
-pub(super) struct Stretch<'a, S> {
-    system: &'a CompliantSystem<S>,
-    ground: GroundPair<'a, S>,
-    /// The mode, which lasts through the step.
-    mode: CompliantState<S>,
-    time: S,
-    length: S,
-    end: Place<S>,
+pub(super) type Stretch<'a, S> = stepped::Stretch<'a, S, CompliantState<S>>;
+
+impl<S: Real> Mode<S> for CompliantState<S> {
+    type System = CompliantSystem<S>;
+    type Place = Place<S>;
+
+    fn block(&self) -> &BlockState<S> {
+        &self.motion
+    }
+
+    fn place(&self) -> Place<S> {
+        let BlockState { rotation, velocity, .. } = self.motion;
+        Place { rotation, velocity, height: self.height, rise: self.rise, spent: self.spent }
+    }
+
+    fn at(&self, place: &Place<S>) -> CompliantState<S> {
+        let Place { rotation, velocity, height, rise, spent } = *place;
+        CompliantState { motion: BlockState { rotation, velocity, ..self.motion }, height, rise, spent, ..*self }
+    }
+
+    /// θ̇, θ̈, ẏ/R, ÿ/R, power of the dashpots.
+    fn rates(&self, system: &CompliantSystem<S>, ground: [S; 2]) -> Place<S> {
+        let Balance { acceleration, lift, loss, .. } = system.balance(self, ground);
+        Place { rotation: self.motion.velocity, velocity: acceleration, height: self.rise, rise: lift, spent: loss }
+    }
 }
 
-impl<'a, S: Real> Stretch<'a, S> {
-    /// From `state` at `time` over `length` (s).
-    pub fn new(
-        system: &'a CompliantSystem<S>,
-        ground: GroundPair<'a, S>,
-        state: &CompliantState<S>,
-        time: S,
-        length: S,
-    ) -> Stretch<'a, S> {
-        let mut stretch = Stretch { system, ground, mode: *state, time, length, end: state.place() };
-        stretch.end = stretch.step(length);
-        stretch
-    }
-
-    fn balance(&self, place: &Place<S>, ground: [S; 2]) -> Balance<S> {
-        let mut state = self.mode;
-        (state.motion.rotation, state.motion.velocity) = (place.rotation, place.velocity);
-        (state.height, state.rise) = (place.height, place.rise);
-        self.system.balance(&state, ground)
-    }
-
-    fn rates(&self, place: &Place<S>, ground: [S; 2]) -> Place<S> {
-        let Balance { acceleration, lift, loss, .. } = self.balance(place, ground);
-        Place { rotation: place.velocity, velocity: acceleration, height: place.rise, rise: lift, spent: loss }
-    }
-
-    fn step(&self, h: S) -> Place<S> {
-        let start = self.mode.place();
-        let [middle, end] = [S::HALF * h, h].map(|t| self.ground.at(self.time + t));
-        let first = self.rates(&start, self.ground.at(self.time));
-        let second = self.rates(&start.after(&first, S::HALF * h), middle);
-        let third = self.rates(&start.after(&second, S::HALF * h), middle);
-        let fourth = self.rates(&start.after(&third, h), end);
-        let both = second.after(&third, S::ONE);
-        start.after(&first.after(&both, S::of(2.0)).after(&fourth, S::ONE), h * S::of(1.0 / 6.0))
-    }
-
-    /// The place `time` (s) after the start.
-    pub fn place(&self, time: S) -> Place<S> {
-        if time == S::ZERO {
-            self.mode.place()
-        } else if time == self.length {
-            self.end
-        } else {
-            self.step(time)
-        }
-    }
-
-    /// θ, θ̇ and θ̈ `time` (s) after the start.
-    pub fn motion(&self, time: S) -> Motion<S> {
-        let place = self.place(time);
-        let acceleration = self.balance(&place, self.ground.at(self.time + time)).acceleration;
-        Motion { rotation: place.rotation, velocity: place.velocity, acceleration }
-    }
-
+impl<S: Real> Stretch<'_, S> {
     /// A guard `time` (s) after the start; one that the mode does not have is 1.
-    pub fn guard(&self, guard: Guard, time: S, overturned: S) -> S {
-        let place = self.place(time);
-        let motion = &self.mode.motion;
+    pub(super) fn guard(&self, guard: Guard, time: S, overturned: S) -> S {
+        let (system, state) = (self.system, self.state(time));
+        let motion = &state.motion;
         match guard {
-            Guard::Overturned => overturned - motion.side.times(place.rotation),
-            Guard::Upright => motion.side.times(place.rotation),
-            Guard::Turn => motion.direction.times(place.velocity),
+            Guard::Overturned => overturned - motion.side.times(motion.rotation),
+            Guard::Upright => motion.side.times(motion.rotation),
+            Guard::Turn => motion.direction.times(motion.velocity),
             Guard::Foot(foot) => {
-                let (compression, force) = self.system.foot(&place, motion.side, foot);
-                let weight = self.system.gravity();
-                match self.mode.feet[foot] {
+                let (compression, force) = system.foot(&state, foot);
+                let weight = system.gravity();
+                match state.feet[foot] {
                     Foot::Presses => force / weight,
-                    Foot::Relaxes => (-force / weight).smaller(self.system.stiffness / weight * compression),
+                    Foot::Relaxes => (-force / weight).smaller(system.stiffness / weight * compression),
                     Foot::Lifted => -compression,
                 }
             }
-            Guard::Push if self.system.clutch.follows_signs() => {
-                let push = self.balance(&place, self.ground.at(self.time + time)).push;
-                motion.terminal_acceleration_sign.times(push)
+            Guard::Push if system.clutch.follows_signs() => {
+                motion.terminal_acceleration_sign.times(system.balance(&state, self.ground(time)).push)
             }
             Guard::Push => S::ONE,
         }
     }
 }
 
-impl<S: Real> Place<S> {
-    /// The place with `rates` for `h`.
+impl<S: Real> stepped::Place<S> for Place<S> {
+    fn turn(&self) -> [S; 2] {
+        [self.rotation, self.velocity]
+    }
+
     fn after(&self, rates: &Place<S>, h: S) -> Place<S> {
         Place {
             rotation: self.rotation + h * rates.rotation,
@@ -134,16 +99,6 @@ impl<S: Real> Place<S> {
     }
 }
 
-impl<S: Real> DenseOutput<S> for Stretch<'_, S> {
-    fn length(&self) -> S {
-        self.length
-    }
-
-    fn at(&self, time: S) -> Motion<S> {
-        self.motion(time)
-    }
-}
-
 impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
     fn motion(&self) -> &dyn DenseOutput<S> {
         self
@@ -151,8 +106,8 @@ impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
 
     /// Force, speed and energy of an ideal device as in [`crate::motion::ideal::device_view`].
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let (system, motion) = (self.system, self.motion(time));
-        let [push, weight] = self.ground.at(self.time + time);
+        let (system, motion) = (self.system, self.at(time));
+        let [push, weight] = self.ground(time);
         let side = self.mode.motion.side;
         let (sine, cosine) = system.delta(side, motion.rotation);
         let terminal_velocity = cosine * motion.velocity;

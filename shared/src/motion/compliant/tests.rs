@@ -96,7 +96,7 @@ fn sine(amplitude: f64, frequency: f64) -> AnySegment<f64> {
 
 /// Kinetic energy with an engaged flywheel, weight, compressed springs of feet that press, and losses; over mR².
 fn energy(system: &CompliantSystem<f64>, state: &CompliantState<f64>) -> f64 {
-    let BlockState { rotation, velocity, side, .. } = state.motion;
+    let BlockState { rotation, velocity, .. } = state.motion;
     let cosine = math::cos(ALPHA - rotation.abs());
     let ratio = if state.engaged { system.mass_ratio } else { 0.0 };
     let mass = system.inertia - 1.0 + (1.0 + ratio) * cosine * cosine;
@@ -104,7 +104,7 @@ fn energy(system: &CompliantSystem<f64>, state: &CompliantState<f64>) -> f64 {
     let springs: f64 = (0..2)
         .filter(|&foot| state.feet[foot] == Foot::Presses)
         .map(|foot| {
-            let compression = system.foot(&state.place(), side, foot).0;
+            let compression = system.foot(state, foot).0;
             0.5 * system.stiffness * compression * compression
         })
         .sum();

@@ -13,7 +13,7 @@ use crate::math::sign::Sign;
 
 /// Rotation and slide of a block at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place<S> {
+pub(in crate::motion) struct Place<S> {
     /// θ, rad.
     pub rotation: S,
     /// θ̇, rad/s.

@@ -13,16 +13,14 @@ mod landing;
 pub mod resolve;
 mod stretch;
 
-use balance::{Balance, Place};
+use balance::Balance;
 use stretch::{Guard, Stretch};
 
-use crate::math::root::illinois;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::method::dense_output::DenseOutput;
 use crate::method::step_grid::next_stop;
 use crate::motion::ground_pair::GroundPair;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::observer::{Event, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 
@@ -100,11 +98,6 @@ impl<S: Real> SlidingState<S> {
     /// Nothing follows any more.
     pub fn has_ended(&self) -> bool {
         self.lifted_off.is_some() || self.motion.phase == Phase::Overturned
-    }
-
-    fn place(&self) -> Place<S> {
-        let BlockState { rotation, velocity, .. } = self.motion;
-        Place { rotation, velocity, displacement: self.displacement, slip: self.slip, spent: self.spent }
     }
 }
 
@@ -185,29 +178,13 @@ impl<S: Real> SlidingSystem<S> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) {
-        let stretch = Stretch::new(self, ground, state, *time, stop - *time);
-        let length = stretch.length();
-        let mut found: Option<(S, Guard)> = None;
-        for guard in Guard::ALL.into_iter().filter(|guard| may_slip || *guard != Guard::Grip) {
-            let value = |t: S| stretch.guard(guard, t, limits.overturned);
-            if value(length) < S::ZERO {
-                let at = illinois(S::ZERO, length, Sign::Positive, value);
-                found = found.filter(|(first, _)| *first <= at).or(Some((at, guard)));
-            }
-        }
-        let until = found.map_or(length, |(at, _)| at);
-        let place = stretch.place(until);
-        if until > S::ZERO {
-            let BlockState { side, direction, .. } = state.motion;
-            let (first, last) = (stretch.motion(S::ZERO), stretch.motion(until));
-            let from = S::ZERO;
-            let interval = MonotoneInterval { start: *time, from, to: until, first, last, engaged: false, side, direction };
-            observer.device_interval(&stretch, &interval);
-        }
-        (state.motion.rotation, state.motion.velocity) = (place.rotation, place.velocity);
-        (state.displacement, state.slip, state.spent) = (place.displacement, place.slip, place.spent);
-        state.farthest = state.farthest.larger(place.displacement.abs());
-        let Some((_, guard)) = found else {
+        let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
+        let guards = Guard::ALL.into_iter().filter(|guard| may_slip || *guard != Guard::Grip);
+        let (until, found) = stretch.first(guards, |guard, at| stretch.guard(guard, at, limits.overturned));
+        stretch.show(until, false, observer);
+        *state = stretch.state(until);
+        state.farthest = state.farthest.larger(state.displacement.abs());
+        let Some(guard) = found else {
             *time = stop;
             return;
         };

@@ -1,12 +1,12 @@
-//! One step of a block that rocks or slides: the classical Runge-Kutta method, taken again for every instant inside the step.
+//! One step of a block that rocks or slides: its rates, and what ends its mode.
 
 use super::balance::{Balance, Place};
-use super::{Contact, GroundPair, SlidingState, SlidingSystem};
-use crate::equation::motion::Motion;
+use super::{Contact, SlidingState, SlidingSystem};
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
-use crate::motion::state::Phase;
+use crate::motion::state::{BlockState, Phase};
+use crate::motion::stepped::{self, Mode};
 
 /// A function that is positive for as long as nothing happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,96 +31,58 @@ impl Guard {
 }
 
 /// Dense output of a step.
-pub(super) struct Stretch<'a, S> {
-    system: &'a SlidingSystem<S>,
-    ground: GroundPair<'a, S>,
-    /// The mode, which lasts through the step.
-    mode: SlidingState<S>,
-    time: S,
-    length: S,
-    end: Place<S>,
+pub(super) type Stretch<'a, S> = stepped::Stretch<'a, S, SlidingState<S>>;
+
+impl<S: Real> Mode<S> for SlidingState<S> {
+    type System = SlidingSystem<S>;
+    type Place = Place<S>;
+
+    fn block(&self) -> &BlockState<S> {
+        &self.motion
+    }
+
+    fn place(&self) -> Place<S> {
+        let BlockState { rotation, velocity, .. } = self.motion;
+        Place { rotation, velocity, displacement: self.displacement, slip: self.slip, spent: self.spent }
+    }
+
+    fn at(&self, place: &Place<S>) -> SlidingState<S> {
+        let Place { rotation, velocity, displacement, slip, spent } = *place;
+        SlidingState { motion: BlockState { rotation, velocity, ..self.motion }, displacement, slip, spent, ..*self }
+    }
+
+    /// θ̇, θ̈, ẋ/R, ẍ/R, power of friction.
+    fn rates(&self, system: &SlidingSystem<S>, ground: [S; 2]) -> Place<S> {
+        let balance = system.balance(self, ground);
+        let turns = self.motion.phase == Phase::Rocking;
+        let slides = self.contact != Contact::Sticks;
+        Place {
+            rotation: if turns { self.motion.velocity } else { S::ZERO },
+            velocity: balance.acceleration,
+            displacement: if slides { self.slip } else { S::ZERO },
+            slip: balance.slide,
+            spent: if slides { -balance.along * self.slip } else { S::ZERO },
+        }
+    }
 }
 
-impl<'a, S: Real> Stretch<'a, S> {
-    /// From `state` at `time` over `length` (s).
-    pub fn new(
-        system: &'a SlidingSystem<S>,
-        ground: GroundPair<'a, S>,
-        state: &SlidingState<S>,
-        time: S,
-        length: S,
-    ) -> Stretch<'a, S> {
-        let mut stretch = Stretch { system, ground, mode: *state, time, length, end: state.place() };
-        stretch.end = stretch.step(length);
-        stretch
-    }
-
-    fn balance(&self, place: &Place<S>, ground: [S; 2]) -> Balance<S> {
-        let mut state = self.mode;
-        (state.motion.rotation, state.motion.velocity) = (place.rotation, place.velocity);
-        self.system.balance(&state, ground)
-    }
-
-    /// Rates of a place: θ̇, θ̈, ẋ/R, ẍ/R, power of friction.
-    fn rates(&self, place: &Place<S>, ground: [S; 2]) -> Place<S> {
-        let balance = self.balance(place, ground);
-        let turns = self.mode.motion.phase == Phase::Rocking;
-        let slides = self.mode.contact != Contact::Sticks;
-        Place {
-            rotation: if turns { place.velocity } else { S::ZERO },
-            velocity: balance.acceleration,
-            displacement: if slides { place.slip } else { S::ZERO },
-            slip: balance.slide,
-            spent: if slides { -balance.along * place.slip } else { S::ZERO },
-        }
-    }
-
-    fn step(&self, h: S) -> Place<S> {
-        let start = self.mode.place();
-        let [middle, end] = [S::HALF * h, h].map(|t| self.ground.at(self.time + t));
-        let first = self.rates(&start, self.ground.at(self.time));
-        let second = self.rates(&start.after(&first, S::HALF * h), middle);
-        let third = self.rates(&start.after(&second, S::HALF * h), middle);
-        let fourth = self.rates(&start.after(&third, h), end);
-        let sixth = h * S::of(1.0 / 6.0);
-        let both = second.after(&third, S::ONE);
-        start.after(&first.after(&both, S::of(2.0)).after(&fourth, S::ONE), sixth)
-    }
-
-    /// The place `time` (s) after the start.
-    pub fn place(&self, time: S) -> Place<S> {
-        if time == S::ZERO {
-            self.mode.place()
-        } else if time == self.length {
-            self.end
-        } else {
-            self.step(time)
-        }
-    }
-
-    /// θ, θ̇ and θ̈ `time` (s) after the start.
-    pub fn motion(&self, time: S) -> Motion<S> {
-        let place = self.place(time);
-        let acceleration = self.balance(&place, self.ground.at(self.time + time)).acceleration;
-        Motion { rotation: place.rotation, velocity: place.velocity, acceleration }
-    }
-
+impl<S: Real> Stretch<'_, S> {
     /// A guard `time` (s) after the start; one that the mode does not have is 1.
-    pub fn guard(&self, guard: Guard, time: S, overturned: S) -> S {
-        let place = self.place(time);
-        let rocks = self.mode.motion.phase == Phase::Rocking;
-        let side = self.mode.motion.side;
-        let direction = match self.mode.contact {
+    pub(super) fn guard(&self, guard: Guard, time: S, overturned: S) -> S {
+        let state = self.state(time);
+        let SlidingState { motion: BlockState { phase, side, direction, rotation, velocity, .. }, slip, .. } = state;
+        let rocks = phase == Phase::Rocking;
+        let slides = match state.contact {
             Contact::Sticks => None,
             Contact::Slides(direction) => Some(direction),
         };
-        let balance = || self.balance(&place, self.ground.at(self.time + time));
-        match (guard, direction) {
-            (Guard::Impact, _) if rocks => side.times(place.rotation),
-            (Guard::Overturned, _) if rocks => overturned - side.times(place.rotation),
-            (Guard::Turn, _) if rocks => self.mode.motion.direction.times(place.velocity),
+        let balance = || self.system.balance(&state, self.ground(time));
+        match (guard, slides) {
+            (Guard::Impact, _) if rocks => side.times(rotation),
+            (Guard::Overturned, _) if rocks => overturned - side.times(rotation),
+            (Guard::Turn, _) if rocks => direction.times(velocity),
             (Guard::Lift, Some(_)) if rocks => balance().normal,
-            (Guard::Stop, Some(direction)) => direction.times(place.slip),
+            (Guard::Stop, Some(direction)) => direction.times(slip),
             (Guard::Grip, None) if rocks => {
                 let Balance { along, normal, .. } = balance();
                 self.system.friction * normal - along.abs()
@@ -130,8 +92,11 @@ impl<'a, S: Real> Stretch<'a, S> {
     }
 }
 
-impl<S: Real> Place<S> {
-    /// The place with `rates` for `h`.
+impl<S: Real> stepped::Place<S> for Place<S> {
+    fn turn(&self) -> [S; 2] {
+        [self.rotation, self.velocity]
+    }
+
     fn after(&self, rates: &Place<S>, h: S) -> Place<S> {
         Place {
             rotation: self.rotation + h * rates.rotation,
@@ -143,28 +108,18 @@ impl<S: Real> Place<S> {
     }
 }
 
-impl<S: Real> DenseOutput<S> for Stretch<'_, S> {
-    fn length(&self) -> S {
-        self.length
-    }
-
-    fn at(&self, time: S) -> Motion<S> {
-        self.motion(time)
-    }
-}
-
 impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
     fn motion(&self) -> &dyn DenseOutput<S> {
         self
     }
 
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let [push, weight] = self.ground.at(self.time + time);
+        let [push, weight] = self.ground(time);
         let ground = [push, weight - S::ONE, S::ZERO];
-        Snapshot { motion: self.motion(time), ground, terminal_velocity: S::ZERO, device: Default::default() }
+        Snapshot { motion: self.at(time), ground, terminal_velocity: S::ZERO, device: Default::default() }
     }
 
     fn displacement(&self, time: S) -> S {
-        self.system.size * self.place(time).displacement
+        self.system.size * self.state(time).displacement
     }
 }

@@ -2,6 +2,8 @@
 
 use sprag_loops::{HybridLoop, IdealLoop};
 use sprag_shared::math::scalar::Real;
+#[cfg(feature = "effects")]
+use sprag_shared::motion::ground_pair::GroundPair;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::ideal::IdealSystem;
@@ -186,5 +188,38 @@ impl<'a> Course<'a> {
         let shaking = Shaking::level(&SumSegment::QUIET);
         let ended = integrator.advance(machine, state, shaking, S::of(self.free_time), &limits(0.0, 0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))
+    }
+
+    /// Gives each segment of the ground, and quiet ground for the free time, to `advance` with its start and duration (s), until that says that nothing
+    /// follows any more or `continues` no longer holds.
+    ///
+    /// # Errors
+    /// Those of `advance`, whose times are local to the segment.
+    #[cfg(feature = "effects")]
+    pub(super) fn in_pairs<S: Real, O: Segmented>(
+        &self,
+        observer: &mut O,
+        continues: impl Fn() -> bool,
+        mut advance: impl FnMut(GroundPair<'_, S>, [f64; 2], &mut O) -> Result<bool, Stopped>,
+    ) -> Result<(), Stopped> {
+        let mut over = |pair: GroundPair<'_, S>, start: f64, duration: f64, observer: &mut O| {
+            advance(pair, [start, duration], observer).map_err(|end| end.after(start))
+        };
+        let vertical = self.vertical.map(GroundMotion::segments);
+        for (index, segment) in self.ground.segments().iter().enumerate() {
+            if !continues() {
+                return Ok(());
+            }
+            observer.segment(segment.start, Some(segment));
+            let horizontal: SumSegment<S> = segment.shape.to();
+            let up: Option<SumSegment<S>> = vertical.and_then(|segments| segments.get(index)).map(|segment| segment.shape.to());
+            let pair = GroundPair { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
+            if over(pair, segment.start, segment.duration, observer)? {
+                return Ok(());
+            }
+        }
+        observer.segment(self.ground.duration(), None);
+        let pair = GroundPair { horizontal: &SumSegment::QUIET, vertical: None };
+        over(pair, self.ground.duration(), self.free_time, observer).map(|_| ())
     }
 }

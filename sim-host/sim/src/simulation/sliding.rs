@@ -1,16 +1,12 @@
 //! Runs of a block whose base may slide, by the loop that knows how.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::ground_pair::GroundPair;
-use sprag_shared::motion::observer::Observer;
 use sprag_shared::motion::sliding::{SlidingState, SlidingSystem};
-use sprag_shared::motion::state::{Phase, Stopped};
+use sprag_shared::motion::state::Phase;
 
 use super::device_run::{DeviceRun, Found};
-use super::drive::{Course, Segmented};
 use super::run::{Failure, Task};
 use super::sliding_report::{SlidingOutcome, SlidingReport};
-use crate::ground_motion::{GroundMotion, SumSegment};
 use crate::scene::accuracy::Precision;
 use crate::scene::sliding::step;
 
@@ -38,8 +34,20 @@ fn follow<S: Real>(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     watchers.checks = None;
     watchers.recorder = watchers.recorder.sliding();
     let step = S::of(step(&task.scene.file, &task.scene.block));
-    let end = along(&course, &system, step, &mut state, &mut watchers, || !task.interrupt.is_set());
-    let lifted_off = end.map_err(Failure::Stopped)?;
+    // No reaction within the cone of friction turns a block back from beyond α + arctan μ, whatever the ground does.
+    let limits = course.limits(system.friction.to_f64());
+    // When the toe left the ground, s.
+    let mut lifted_off = None;
+    let ended = course.in_pairs(
+        &mut watchers,
+        || !task.interrupt.is_set(),
+        |pair, [start, duration], watchers| {
+            system.advance(step, &mut state, pair, S::of(duration), &limits, watchers)?;
+            lifted_off = state.lifted_off.map(|time| start + time.to_f64());
+            Ok(state.has_ended())
+        },
+    );
+    ended.map_err(Failure::Stopped)?;
     if task.interrupt.is_set() {
         return Err(Failure::Interrupted);
     }
@@ -65,38 +73,4 @@ fn follow<S: Real>(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     };
     let found = Found { sliding: Some(report), peak_force_ratio: Some(0.0), ..Found::watched(task, watchers) };
     Ok(DeviceRun::of(task, &state.motion, &peaks, found))
-}
-
-/// Follows `state` to the end; `continues` is asked before every segment. Gives when the toe left the ground, s.
-fn along<S: Real, O: Observer<S> + Segmented>(
-    course: &Course<'_>,
-    system: &SlidingSystem<S>,
-    step: S,
-    state: &mut SlidingState<S>,
-    observer: &mut O,
-    continues: impl Fn() -> bool,
-) -> Result<Option<f64>, Stopped> {
-    // No reaction within the cone of friction turns a block back from beyond α + arctan μ, whatever the ground does.
-    let limits = course.limits(system.friction.to_f64());
-    let mut over = |start: f64, duration: f64, pair: GroundPair<'_, S>, observer: &mut O| {
-        let ended = system.advance(step, state, pair, S::of(duration), &limits, observer);
-        ended.map_err(|end| end.after(start))?;
-        Ok((state.has_ended(), state.lifted_off.map(|time| start + time.to_f64())))
-    };
-    let vertical = course.vertical.map(GroundMotion::segments);
-    for (index, segment) in course.ground.segments().iter().enumerate() {
-        if !continues() {
-            return Ok(None);
-        }
-        observer.segment(segment.start, Some(segment));
-        let horizontal: SumSegment<S> = segment.shape.to();
-        let up: Option<SumSegment<S>> = vertical.and_then(|segments| segments.get(index)).map(|segment| segment.shape.to());
-        let pair = GroundPair { horizontal: &horizontal, vertical: up.as_ref().map(|piece| piece as _) };
-        if let (true, lifted_off) = over(segment.start, segment.duration, pair, observer)? {
-            return Ok(lifted_off);
-        }
-    }
-    observer.segment(course.ground.duration(), None);
-    let pair = GroundPair { horizontal: &SumSegment::QUIET, vertical: None };
-    Ok(over(course.ground.duration(), course.free_time, pair, observer)?.1)
 }

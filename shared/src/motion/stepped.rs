@@ -1,0 +1,125 @@
+//! Steps of the classical Runge-Kutta method, of a block whose mode lasts through the step: an event inside one is located by taking the step again with a
+//! shorter length. What the ends of a step do not show is not seen.
+
+use crate::equation::motion::Motion;
+use crate::math::root::illinois;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::method::dense_output::DenseOutput;
+use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::ground_pair::GroundPair;
+use crate::motion::observer::{MonotoneInterval, Observer};
+use crate::motion::state::BlockState;
+
+/// What changes within a step.
+pub(super) trait Place<S>: Copy {
+    /// θ and θ̇; of rates, θ̇ and θ̈.
+    fn turn(&self) -> [S; 2];
+
+    /// The place with `rates` for `h`.
+    fn after(&self, rates: &Self, h: S) -> Self;
+}
+
+/// The state of a block, with the mode that lasts through a step.
+pub(super) trait Mode<S: Real>: Copy {
+    /// Its equations.
+    type System;
+    /// What of it changes.
+    type Place: Place<S>;
+
+    /// The block.
+    fn block(&self) -> &BlockState<S>;
+
+    /// Where it is.
+    fn place(&self) -> Self::Place;
+
+    /// The same mode elsewhere.
+    fn at(&self, place: &Self::Place) -> Self;
+
+    /// Rates of the place on ground that has ü_g/g and the weight 1 + v̈_g/g.
+    fn rates(&self, system: &Self::System, ground: [S; 2]) -> Self::Place;
+}
+
+/// Dense output of a step.
+pub(super) struct Stretch<'a, S: Real, M: Mode<S>> {
+    pub system: &'a M::System,
+    /// As it was at the start.
+    pub mode: M,
+    ground: GroundPair<'a, S>,
+    time: S,
+    length: S,
+    end: M::Place,
+}
+
+impl<'a, S: Real, M: Mode<S>> Stretch<'a, S, M> {
+    /// From `mode` at `time` over `length` (s).
+    pub fn new(system: &'a M::System, ground: GroundPair<'a, S>, mode: M, time: S, length: S) -> Stretch<'a, S, M> {
+        let mut stretch = Stretch { system, mode, ground, time, length, end: mode.place() };
+        stretch.end = stretch.step(length);
+        stretch
+    }
+
+    fn step(&self, h: S) -> M::Place {
+        let start = self.mode.place();
+        let rates = |place: &M::Place, ground| self.mode.at(place).rates(self.system, ground);
+        let [middle, end] = [S::HALF * h, h].map(|t| self.ground(t));
+        let first = rates(&start, self.ground(S::ZERO));
+        let second = rates(&start.after(&first, S::HALF * h), middle);
+        let third = rates(&start.after(&second, S::HALF * h), middle);
+        let fourth = rates(&start.after(&third, h), end);
+        let both = second.after(&third, S::ONE);
+        start.after(&first.after(&both, S::of(2.0)).after(&fourth, S::ONE), h * S::of(1.0 / 6.0))
+    }
+
+    /// ü_g/g and the weight 1 + v̈_g/g `time` (s) after the start.
+    pub fn ground(&self, time: S) -> [S; 2] {
+        self.ground.at(self.time + time)
+    }
+
+    /// The state `time` (s) after the start.
+    pub fn state(&self, time: S) -> M {
+        if time == S::ZERO {
+            self.mode
+        } else if time == self.length {
+            self.mode.at(&self.end)
+        } else {
+            self.mode.at(&self.step(time))
+        }
+    }
+
+    /// How far it goes (s), and the first of `guards` whose `value` falls below zero there; of two at one instant the earlier one.
+    pub fn first<G: Copy>(&self, guards: impl Iterator<Item = G>, value: impl Fn(G, S) -> S) -> (S, Option<G>) {
+        let mut found: Option<(S, G)> = None;
+        for guard in guards.filter(|guard| value(*guard, self.length) < S::ZERO) {
+            let at = illinois(S::ZERO, self.length, Sign::Positive, |time| value(guard, time));
+            found = found.filter(|(first, _)| *first <= at).or(Some((at, guard)));
+        }
+        (found.map_or(self.length, |(at, _)| at), found.map(|(_, guard)| guard))
+    }
+
+    /// Shows `observer` the motion up to `until` (s after the start), with a flywheel that is `engaged` or not.
+    pub fn show(&self, until: S, engaged: bool, observer: &mut dyn Observer<S>)
+    where
+        Self: DeviceOutput<S>,
+    {
+        if until > S::ZERO {
+            let BlockState { side, direction, .. } = *self.mode.block();
+            let (start, from) = (self.time, S::ZERO);
+            let (first, last) = (DenseOutput::at(self, from), DenseOutput::at(self, until));
+            observer.device_interval(self, &MonotoneInterval { start, from, to: until, first, last, engaged, side, direction });
+        }
+    }
+}
+
+impl<S: Real, M: Mode<S>> DenseOutput<S> for Stretch<'_, S, M> {
+    fn length(&self) -> S {
+        self.length
+    }
+
+    fn at(&self, time: S) -> Motion<S> {
+        let state = self.state(time);
+        let [rotation, velocity] = state.place().turn();
+        let [_, acceleration] = state.rates(self.system, self.ground(time)).turn();
+        Motion { rotation, velocity, acceleration }
+    }
+}
