@@ -8,6 +8,7 @@ from . import errors
 from ._board import Board, BoardLoop
 from ._columns import Columns
 from ._core import DemandModel, Fragility, Record, Situation, __version__, demand, fragility
+from ._design import Design, design
 from ._loop import ClosedLoop, Law, Wish, closed_loop
 from ._map import Map, map
 from ._outcome import Outcome
@@ -71,6 +72,7 @@ __all__ = [
     "Controller",
     "Cosine",
     "DemandModel",
+    "Design",
     "Device",
     "Duration",
     "Encoder",
@@ -115,6 +117,7 @@ __all__ = [
     "cloud",
     "collect",
     "demand",
+    "design",
     "errors",
     "fragility",
     "map",

@@ -16,6 +16,7 @@ use sprag_sim::scene::ground::GroundError;
 use sprag_sim::simulation::RunError;
 use sprag_studies::accuracy_study::study::StudyError as AccuracyError;
 use sprag_studies::cloud::study::StudyError as CloudError;
+use sprag_studies::design::error::DesignError;
 use sprag_studies::map::study::MapError;
 
 /// `sprag.InputError`: what is wrong, and where it is known the key, its value and what it may be.
@@ -167,6 +168,27 @@ impl Raise for AccuracyError {
         match self {
             AccuracyError::Parameter(error) => error.raise(),
             AccuracyError::Interrupted => PyKeyboardInterrupt::new_err(()),
+        }
+    }
+}
+
+impl Raise for DesignError {
+    fn raise(self) -> PyErr {
+        let message = self.to_string();
+        match self {
+            DesignError::Range { option, value, range: allowed } => {
+                let key = match option {
+                    "face-width" => "face_width_modules".to_owned(),
+                    "allowable-stress" => "allowable_stress_mpa".to_owned(),
+                    option => option.replace('-', "_"),
+                };
+                range(&key, value, allowed)
+            }
+            DesignError::UnknownDevice { name, known } => range("devices", format_args!("{name:?}"), &format!("one of {known}")),
+            DesignError::NoDevice { .. } => input(&message, Some("device"), None, None),
+            DesignError::NoRun { .. } | DesignError::NeverRocks { .. } | DesignError::NoGear { .. } => failed(message),
+            DesignError::Scene(error) => error.raise(),
+            DesignError::Interrupted => PyKeyboardInterrupt::new_err(()),
         }
     }
 }

@@ -7,6 +7,7 @@
 mod board;
 mod closed_loop;
 mod columns;
+mod design;
 mod errors;
 mod fits;
 mod law;
@@ -29,6 +30,8 @@ mod _core {
     use crate::board::{board_info, board_log, board_loop, board_settings};
     #[pymodule_export]
     use crate::closed_loop::closed_loop;
+    #[pymodule_export]
+    use crate::design::design;
     #[pymodule_export]
     use crate::fits::{DemandModel, Fragility, demand, fragility};
     #[pymodule_export]

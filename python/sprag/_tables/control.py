@@ -258,7 +258,7 @@ class Controller(Table):
     estimator
         Estimator of the motion; model-aided by default.
     law
-        Clutch law; the paper's Eq. 10 is "resisting-predicted"; costate by default.
+        Clutch law; resisting-predicted by default.
     sign_table
         Table of the law "sign-table": bit 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0] says whether to engage; 102
         without the key; from 0 to 255.

@@ -131,7 +131,7 @@ parameters! {
 
     Law "law" choice(
         &["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"],
-        7,
+        3,
     );
     LawTable "law.table" whole("", 0, 255, 0b0100_1110).only(TABLES);
     LawRow "law.row" whole("", 0, 7, 5).only(GATED);
@@ -141,13 +141,13 @@ parameters! {
     LawFading "law.fading" real("", 0.0, 1.0, 0.716_531_3).only(LOOK_AHEAD);
     LawFadingHalf "law.fading_half" real("", 0.0, 1.0, 0.846_481_7).only(LOOK_AHEAD);
     LawMargin "law.margin" real("", -10.0, 10.0, 0.014).only(LOOK_AHEAD);
-    LawRotation "law.rotation" real("", -10.0, 10.0, 0.3).only(COSTATE);
-    LawCurvature "law.curvature" real("", -10.0, 10.0, 0.04).only(COSTATE);
-    LawGround "law.ground" real("", -10.0, 10.0, -0.29).only(COSTATE);
-    LawDrift "law.drift" real("", -10.0, 10.0, 0.57).only(COSTATE);
-    LawJolt "law.jolt" real("", -10.0, 10.0, -0.12).only(COSTATE);
-    LawTake "law.take" real("", -10.0, 10.0, -1.0).only(COSTATE);
-    LawKeep "law.keep" real("", -10.0, 10.0, 0.03).only(COSTATE);
+    LawRotation "law.rotation" real("", -10.0, 10.0, 0.18).only(COSTATE);
+    LawCurvature "law.curvature" real("", -10.0, 10.0, 0.45).only(COSTATE);
+    LawGround "law.ground" real("", -10.0, 10.0, -0.41).only(COSTATE);
+    LawDrift "law.drift" real("", -10.0, 10.0, 0.73).only(COSTATE);
+    LawJolt "law.jolt" real("", -10.0, 10.0, 0.6).only(COSTATE);
+    LawTake "law.take" real("", -10.0, 10.0, -0.01).only(COSTATE);
+    LawKeep "law.keep" real("", -10.0, 10.0, -0.01).only(COSTATE);
 
     Horizon "controller.horizon" span(1.0, 0.005_25);
     ReleaseHorizon "controller.release_horizon" span(1.0, 0.005_25);

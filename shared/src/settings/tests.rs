@@ -202,7 +202,7 @@ fn example_supervision() -> Parameters {
 fn the_default_is_the_controller_of_an_example() {
     let estimator = Estimator::ModelAided(MODEL_AIDED);
     let supervision = example_supervision();
-    let example = controller(&example(), estimator, ClutchLaw::Costate(Costate::TRAINED), &supervision);
+    let example = controller(&example(), estimator, ClutchLaw::ResistingPredicted, &supervision);
     let settings = Settings::of(&example, &supervision).unwrap();
     for (item, (&derived, default)) in Item::ALL.into_iter().zip(settings.words().iter().zip(Settings::default().words)) {
         let description = Description::at(item.index()).unwrap();
@@ -214,6 +214,7 @@ fn the_default_is_the_controller_of_an_example() {
         assert_eq!(derived.words()[first as usize..][..count], settings.words()[first as usize..][..count], "{law:?}");
     };
     own(ClutchLaw::LookAhead(LookAhead::default()), Item::LawStep, 5);
+    own(ClutchLaw::Costate(Costate::TRAINED), Item::LawRotation, 7);
 }
 
 /// Every body by every estimator, law and supervision, and what `check` makes of its settings.

@@ -33,7 +33,7 @@ impl Costate {
     /// Found by `sprag loop-study train`: the cross-entropy method on random pulses of all families and on recorded motions, with rigid
     /// clutches of 10 and 30 ms whose wheels are braked or coast (R = 2 m, α = 20°, σ = 0.5).
     pub const TRAINED: Costate =
-        Costate { rotation: 0.3, curvature: 0.04, ground: -0.29, drift: 0.57, jolt: -0.12, take: -1.0, keep: 0.03 };
+        Costate { rotation: 0.18, curvature: 0.45, ground: -0.41, drift: 0.73, jolt: 0.6, take: -0.01, keep: -0.01 };
 }
 
 impl Law for Costate {
@@ -92,6 +92,26 @@ mod tests {
     fn a_costate_that_is_the_velocity_is_equation_10() {
         let equation_10 = Costate { rotation: 0.0, curvature: 0.0, ground: 0.0, drift: 0.0, jolt: 0.0, take: 0.0, keep: 0.0 };
         each(|at| assert_eq!(equation_10.wish(at), Resisting.wish(at), "{at:?}"));
+    }
+
+    /// Otherwise a flywheel goes on and off as fast as its clutch can.
+    #[test]
+    fn a_flywheel_as_fast_as_the_rack_is_taken_on_only_where_it_is_kept() {
+        let mut taken = 0;
+        for share in -40..=40 {
+            each(|at| {
+                let mut at = *at;
+                at.ground_drift += 0.01 * share as f32;
+                at.engaged = [false, false];
+                at.spins = [at.model.rack_speed(at.estimate.side, at.estimate.rotation, at.estimate.velocity); 2];
+                if Costate::TRAINED.wish(&at) == Wish::Resist {
+                    taken += 1;
+                    at.engaged = [true, false];
+                    assert_eq!(Costate::TRAINED.wish(&at), Wish::Resist, "{at:?}");
+                }
+            });
+        }
+        assert!(taken > 100, "{taken}");
     }
 
     /// What is right to one side is right to the other.

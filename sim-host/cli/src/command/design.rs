@@ -88,13 +88,12 @@ pub struct BasisArguments {
 impl BasisArguments {
     /// For `scene`.
     fn basis(&self, scene: &Scene) -> Basis {
-        let of_scene = || Some(scene.file.checks.as_ref()?.gear?.allowable_stress_mpa);
         Basis {
             margin: self.margin,
             service_factor: self.service_factor,
             teeth: self.teeth,
             face_width_modules: self.face_width,
-            allowable_stress_mpa: self.allowable_stress.or_else(of_scene).unwrap_or(Basis::default().allowable_stress_mpa),
+            allowable_stress_mpa: self.allowable_stress.unwrap_or_else(|| Basis::allowable_stress_of(scene)),
             tolerance: self.tolerance,
         }
     }

@@ -19,6 +19,15 @@ use crate::ground_motion::GroundMotion;
 /// How long after the ground motion the block is followed at most, 1/p.
 const AFTERWARDS: f64 = 8.0;
 
+/// What a controller made of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Followed {
+    /// Peak |θ|/α; none of a block that overturned.
+    pub peak: Option<f64>,
+    /// Engagements, until the block stood or fell.
+    pub engagements: u32,
+}
+
 /// A block with its controller.
 #[derive(Clone, Debug)]
 pub struct FullState {
@@ -48,8 +57,8 @@ impl FullState {
         Shaking::of(ground, self.period, 1, AFTERWARDS / self.rocker.frequency())
     }
 
-    /// Peak |θ|/α by `law` of a block that has stood; none if the block overturns.
-    pub fn peak(&self, law: ClutchLaw, shaking: &Shaking) -> Option<f64> {
+    /// What `law` makes of a motion of a block that has stood.
+    pub fn follow(&self, law: ClutchLaw, shaking: &Shaking) -> Followed {
         let controller = Controller { law, ..self.controller };
         let mut state = controller.start();
         let mut place = Place::REST;
@@ -57,7 +66,7 @@ impl FullState {
         let ticks = 1 + usize::from(controller.gate.dwell);
         place.engaged = (0..ticks).fold(OPEN, |engaged, _| controller.choose(&mut state, &still, engaged).1);
         let mut commands = VecDeque::from(vec![place.engaged; self.delay]);
-        let mut last = 0.0;
+        let (mut last, mut engagements) = (0.0, 0);
         for part in shaking.parts() {
             let limit = self.rocker.no_return(part.bound);
             for &ground in part.ground {
@@ -66,20 +75,21 @@ impl FullState {
                 commands.push_back(controller.choose(&mut state, &estimate, place.engaged).1);
                 let command: Engaged = commands.pop_front().unwrap_or_default();
                 if command != place.engaged {
+                    engagements += u32::from(command != OPEN);
                     self.rocker.engage(&mut place, command);
                 }
                 self.rocker.step(&mut place, ground, self.period);
                 if place.rotation.abs() >= limit && place.rotation * place.velocity > 0.0 {
-                    return None;
+                    return Followed { peak: None, engagements };
                 }
             }
             if part.quiet
                 && let Some(peak) = self.rocker.settles_at(&place)
             {
-                return Some(peak / self.rocker.slenderness());
+                return Followed { peak: Some(peak / self.rocker.slenderness()), engagements };
             }
         }
-        None
+        Followed { peak: None, engagements }
     }
 }
 

@@ -15,7 +15,7 @@ pub mod shaking;
 #[cfg(test)]
 mod tests;
 
-pub use full_state::FullState;
+pub use full_state::{Followed, FullState};
 pub use rocker::Rocker;
 pub use search::{Found, Grid, search};
 pub use shaking::Shaking;

@@ -46,6 +46,7 @@ pub enum LawName {
     /// Eq. 10 on the motion as it is estimated to be now.
     Resisting,
     /// Eq. 10 on the motion as it will be when the clutch moves.
+    #[default]
     ResistingPredicted,
     /// Engaged when exactly one of a·v > 0 and ü_g·v > 0, or by `sign_table`.
     SignTable,
@@ -54,7 +55,6 @@ pub enum LawName {
     /// The safer of engaging and releasing, by the equation of motion.
     LookAhead,
     /// Eq. 10 with the costate of optimal control, linear in what the controller knows, in the place of the velocity.
-    #[default]
     Costate,
 }
 
@@ -159,7 +159,7 @@ pub struct ControllerTable {
     pub rate_hz: f64,
     /// Estimator of the motion.
     pub estimator: EstimatorName,
-    /// Clutch law; the paper's Eq. 10 is "resisting-predicted".
+    /// Clutch law.
     pub law: LawName,
     /// Table of the law "sign-table": bit 4 [θ·v > 0] + 2 [a·v > 0] + [ü_g·v > 0] says whether to engage; 102 without the key.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,6 +1,7 @@
 //! The design basis: what is assumed of material, service and margins.
 
 use serde::Serialize;
+use sprag_sim::scene::Scene;
 
 use super::error::DesignError;
 
@@ -48,6 +49,12 @@ impl Default for Basis {
 }
 
 impl Basis {
+    /// Bending stress that teeth of `scene` may bear, MPa: that of its checks, or else the default.
+    pub fn allowable_stress_of(scene: &Scene) -> f64 {
+        let of_checks = || Some(scene.file.checks.as_ref()?.gear?.allowable_stress_mpa);
+        of_checks().unwrap_or(Basis::default().allowable_stress_mpa)
+    }
+
     /// # Errors
     /// [`DesignError::Range`] names the first option outside its range.
     pub fn check(&self) -> Result<(), DesignError> {

@@ -7,7 +7,7 @@ use sprag_sim::clairvoyant::Grid;
 
 use super::bench::{Conditions, StudyError, all, with_loop};
 use super::law_settings::{SLENDERNESS_DEG, Setting};
-use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, THRESHOLDS, families};
+use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
 use crate::statistics::quantile;
@@ -48,7 +48,7 @@ fn fates(bench: &Bench<'_>, kinds: &[Kind], known: Option<&[Vec<Fate>]>) -> Resu
     let jobs: Vec<(usize, usize, &Motion)> = in_kinds.enumerate().map(|(job, (index, motion))| (job, index, motion)).collect();
     let work = |&(job, index, motion): &(usize, usize, &Motion)| {
         let laws = LAWS.iter().map(|&law| {
-            let (outcome, peak) = bench.result(law, motion, index % bench.specimens)?;
+            let Run { outcome, peak, .. } = bench.run(law, motion, index % bench.specimens)?;
             Ok(if outcome.overturned() { OVERTURNED } else { peak })
         });
         let laws = laws.collect::<Result<Vec<f64>, StudyError>>()?;

@@ -11,8 +11,10 @@ use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
 use super::tally::{Tally, fewest};
+use engagements::Engagements;
 use others::Others;
 
+mod engagements;
 mod others;
 mod verdict;
 
@@ -69,6 +71,16 @@ pub(super) fn families(motions: impl Fn(Family) -> Vec<Motion>) -> Vec<Kind> {
     Family::ALL.iter().map(of).collect()
 }
 
+/// What one run came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Run {
+    pub(super) outcome: Outcome,
+    /// max |θ|/α.
+    pub(super) peak: f64,
+    /// Engagements of the clutches; none where there is no loop.
+    pub(super) engagements: u32,
+}
+
 /// Under what the runs of a setting are made.
 pub(super) struct Bench<'a> {
     pub(super) setting: &'a Setting,
@@ -89,8 +101,8 @@ impl Bench<'_> {
         variant
     }
 
-    /// Outcome and peak |θ|/α of one run.
-    pub(super) fn result(&self, law: LawName, motion: &Motion, specimen: usize) -> Result<(Outcome, f64), StudyError> {
+    /// One run.
+    pub(super) fn run(&self, law: LawName, motion: &Motion, specimen: usize) -> Result<Run, StudyError> {
         let kind = match law {
             LawName::Passive => Some("none"),
             LawName::AlwaysEngaged => Some("inerter"),
@@ -99,33 +111,35 @@ impl Bench<'_> {
         };
         if let Some(kind) = kind.filter(|_| self.ideal) {
             let none = if kind == "none" { "device.0={kind=\"none\"}".to_owned() } else { format!("device.0.kind=\"{kind}\"") };
-            return run_ideal(motion, &self.setting.variant().with(&none), self.conditions);
+            let (outcome, peak) = run_ideal(motion, &self.setting.variant().with(&none), self.conditions)?;
+            return Ok(Run { outcome, peak, engagements: 0 });
         }
         let mut variant = self.variant().with(&format!("controller.law=\"{}\"", law.name()));
         variant.seed = 1 + specimen as u64;
         let result = run_loop(motion, &variant, self.conditions)?;
-        Ok((result.outcome, result.peak))
+        let engagements = result.ending.decisions.switches.div_ceil(2);
+        Ok(Run { outcome: result.outcome, peak: result.peak, engagements })
     }
 
-    /// Outcomes by kind, law and motion; motion i is shaken by specimen i mod their number.
-    fn outcomes(&self, kinds: &[Kind]) -> Result<Vec<Vec<Vec<Outcome>>>, StudyError> {
+    /// Runs by kind, law and motion; motion i is shaken by specimen i mod their number.
+    fn runs(&self, kinds: &[Kind]) -> Result<Vec<Vec<Vec<Run>>>, StudyError> {
         let jobs: Vec<(LawName, &Motion, usize)> = kinds
             .iter()
             .flat_map(|kind| LAWS.iter().map(move |&law| (law, kind)))
             .flat_map(|(law, kind)| kind.motions.iter().enumerate().map(move |(index, motion)| (law, motion, index)))
             .collect();
-        let work = |&(law, motion, index): &(LawName, &Motion, usize)| Ok(self.result(law, motion, index % self.specimens)?.0);
-        let mut outcomes = all(&jobs, self.progress, work)?.into_iter();
-        let mut of = |kind: &Kind| outcomes.by_ref().take(kind.motions.len()).collect::<Vec<Outcome>>();
+        let work = |&(law, motion, index): &(LawName, &Motion, usize)| self.run(law, motion, index % self.specimens);
+        let mut runs = all(&jobs, self.progress, work)?.into_iter();
+        let mut of = |kind: &Kind| runs.by_ref().take(kind.motions.len()).collect::<Vec<Run>>();
         Ok(kinds.iter().map(|kind| LAWS.iter().map(|_| of(kind)).collect()).collect())
     }
 
-    fn tallies(&self, outcomes: &[Vec<Vec<Outcome>>]) -> Vec<Vec<Tally>> {
-        let tally = |outcomes: &Vec<Outcome>| Tally {
-            overturned: outcomes.iter().map(|outcome| outcome.overturned()).collect(),
+    fn tallies(&self, runs: &[Vec<Vec<Run>>]) -> Vec<Vec<Tally>> {
+        let tally = |runs: &Vec<Run>| Tally {
+            overturned: runs.iter().map(|run| run.outcome.overturned()).collect(),
             specimens: self.specimens,
         };
-        outcomes.iter().map(|laws| laws.iter().map(tally).collect()).collect()
+        runs.iter().map(|laws| laws.iter().map(tally).collect()).collect()
     }
 }
 
@@ -191,10 +205,10 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     let bench = Bench { setting: &base, ideal: true, specimens: 1, progress, conditions };
     let mut kinds = families(|family| family.grid(CELLS, FREQUENCIES, AMPLITUDES));
     kinds.extend(Kind::of_records(&recorded, recorded.at_each(&THRESHOLDS, alpha(&base))));
-    let outcomes = bench.outcomes(&kinds)?;
-    let tallies = bench.tallies(&outcomes);
+    let runs = bench.runs(&kinds)?;
+    let tallies = bench.tallies(&runs);
     report.table("laws-ideal", by_law(&kinds, &tallies, |tallies, law| tallies[law].count().to_string()));
-    report.figure("laws-ideal", "maps of overturned cells, ideal model", maps(&kinds[..Family::ALL.len()], &outcomes)?);
+    report.figure("laws-ideal", "maps of overturned cells, ideal model", maps(&kinds[..Family::ALL.len()], &runs)?);
     winners.push(("ideal model".to_owned(), tallies));
 
     report.section("Ideal model, other blocks and devices");
@@ -210,9 +224,12 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     ));
     let mut kinds = families(|family| family.spread(SPECIMENS * PULSES, FREQUENCIES, AMPLITUDES));
     kinds.extend(Kind::of_records(&recorded, recorded.at_each(&THRESHOLDS, alpha(&base))));
+    let mut engagements = Engagements::default();
     for (number, setting) in Setting::clutches().iter().enumerate() {
         let bench = Bench { setting, ideal: false, specimens: SPECIMENS, progress, conditions };
-        let tallies = bench.tallies(&bench.outcomes(&kinds)?);
+        let runs = bench.runs(&kinds)?;
+        engagements.add(&setting.name, &runs);
+        let tallies = bench.tallies(&runs);
         report.paragraph(&format!("**{}.**", setting.name));
         let table = by_law(&kinds, &tallies, |tallies, law| {
             let share = tallies[law].share().percent(false);
@@ -225,6 +242,8 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
         report.table(&format!("laws-clutch-{}", number + 1), table);
         winners.push((setting.name.clone(), tallies));
     }
+
+    engagements.report(&mut report);
 
     report.section(&format!("A clutch of {DELAY_MS} ms, other blocks and devices"));
     let settings = Setting::others().into_iter().map(|setting| setting.with_clutch(DELAY_MS, true)).collect();
@@ -243,20 +262,20 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
     Ok(report)
 }
 
-fn maps(kinds: &[Kind], outcomes: &[Vec<Vec<Outcome>>]) -> Result<String, StudyError> {
-    let map = |kind: &Kind, law: &LawName, outcomes: &[Outcome]| CellMap {
+fn maps(kinds: &[Kind], runs: &[Vec<Vec<Run>>]) -> Result<String, StudyError> {
+    let map = |kind: &Kind, law: &LawName, runs: &[Run]| CellMap {
         title: format!("{}, {}", law.name(), kind.name),
-        note: format!("{} of {}", outcomes.iter().filter(|outcome| outcome.overturned()).count(), outcomes.len()),
+        note: format!("{} of {}", runs.iter().filter(|run| run.outcome.overturned()).count(), runs.len()),
         columns: CELLS,
         rows: CELLS,
         to_the_edges: false,
-        cells: outcomes.iter().map(|&outcome| Cell::from(outcome).class()).collect(),
+        cells: runs.iter().map(|run| Cell::from(run.outcome).class()).collect(),
         curves: Vec::new(),
     };
     let maps = kinds
         .iter()
-        .zip(outcomes)
-        .flat_map(|(kind, laws)| LAWS.iter().zip(laws).map(move |(law, outcomes)| map(kind, law, outcomes)))
+        .zip(runs)
+        .flat_map(|(kind, laws)| LAWS.iter().zip(laws).map(move |(law, runs)| map(kind, law, runs)))
         .collect();
     Ok(cell_map_figure(&CellMaps {
         title: "Overturning by clutch law, ideal model".into(),

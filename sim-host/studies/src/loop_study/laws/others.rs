@@ -30,7 +30,7 @@ impl Others {
             let motions = recorded.at_turns(&THRESHOLDS, setting.slenderness_deg.to_radians());
             others.kinds.extend(Kind::of_records(recorded, motions));
             let bench = Bench { setting: &setting, ..*bench };
-            let tallies = bench.tallies(&bench.outcomes(&others.kinds)?);
+            let tallies = bench.tallies(&bench.runs(&others.kinds)?);
             others.settings.push((setting.name, tallies));
         }
         Ok(others)

@@ -1,0 +1,113 @@
+"""Parts lists."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from . import _core
+from ._columns import Columns
+from ._core import Record
+from ._result import Result
+from ._scene import Scene, named
+
+
+@dataclass(frozen=True, eq=False)
+class Design(Result):
+    """Parts of every device of a scene that has a flywheel.
+
+    Attributes
+    ----------
+    parts, motions, delays
+        The tables that the command writes.
+    page
+        The page to hand on, Markdown.
+    findings
+        What was found of each device, as the designs in summary.json of the command.
+    accuracy
+        The least accurate of the runs that parts are sized by, where that was asked for.
+    warnings, failed, left_out
+        What looks like a mistake in the scene, runs that failed, and what could not be found out; a line each.
+    scene
+        The scene.
+    """
+
+    parts: Columns
+    motions: Columns
+    delays: Columns
+    page: str = field(repr=False)
+    findings: list[dict[str, Any]] = field(repr=False)
+    accuracy: dict[str, Any] | None
+    warnings: tuple[str, ...] = field(repr=False)
+    failed: tuple[str, ...]
+    left_out: tuple[str, ...]
+    scene: Scene = field(repr=False)
+
+    __hash__ = Result.__hash__
+
+    def _repr_markdown_(self) -> str:
+        """The page, for notebooks."""
+        return self.page
+
+
+def design(
+    scene: Scene,
+    *,
+    records: Sequence[Record] = (),
+    devices: Sequence[str] = (),
+    margin: float = 1.25,
+    service_factor: float = 1.5,
+    teeth: int = 20,
+    face_width_modules: float = 10.0,
+    allowable_stress_mpa: float | None = None,
+    tolerance: float = 0.05,
+    threads: int | None = None,
+) -> Design:
+    """Sizes the parts of every device of a scene that has a flywheel: support, rack, pinion, clutches, flywheels, coils, sensors.
+
+    Parameters
+    ----------
+    scene
+        The scene; its block has a mass.
+    records
+        Records, each in the place of the scene's, beside its own motion.
+    devices
+        Names of the devices to design; all that have a flywheel without it.
+    margin
+        Factor on force, travel and readings of sensors; 1 to 10.
+    service_factor
+        Factor on the torque of a clutch, and on the load of teeth where no clutch limits it; 1 to 10.
+    teeth
+        Teeth of the pinion; 12 to 200.
+    face_width_modules
+        Face width of the gear over its module; 4 to 20.
+    allowable_stress_mpa
+        Bending stress that teeth may bear by Lewis's formula, MPa; that of the scene's checks or else 200 without it.
+    tolerance
+        Share by which the largest rotation may grow through late clutches; above 0, to 1.
+    threads
+        Threads; one a core by default. Results do not depend on it.
+
+    Raises
+    ------
+    InputError
+        For an assumption outside its range, a block without a mass, and devices that there are not.
+    RunError
+        Where no motion lifts the block, and where no standard gear bears the load.
+    """
+    basis = {
+        "margin": margin,
+        "service_factor": service_factor,
+        "teeth": teeth,
+        "face_width_modules": face_width_modules,
+        "allowable_stress_mpa": allowable_stress_mpa,
+        "tolerance": tolerance,
+    }
+    native = _core.design(scene._native, records=named(records), devices=list(devices), basis=basis, threads=threads)
+    texts = {name: json.loads(native.pop(name)) for name in ("findings", "accuracy")}
+    lines = {name: tuple(native.pop(name)) for name in ("warnings", "failed", "left_out")}
+    page = native.pop("page")
+    tables = {name: Columns(columns) for name, columns in native.items()}
+    return Design(scene=scene, page=page, **tables, **texts, **lines)

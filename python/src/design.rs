@@ -1,0 +1,95 @@
+//! Parts lists.
+
+use std::path::Path;
+
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sprag_sim::scene::Scene as SimScene;
+use sprag_sim::scene::ground::GroundError;
+use sprag_studies::design::basis::Basis;
+use sprag_studies::design::page::page;
+use sprag_studies::design::study::Problem;
+use sprag_studies::design::table::{delay_table, motion_table, parts_table};
+use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
+
+use crate::columns::Columns;
+use crate::errors::{Raise as _, failed, missing, refused};
+use crate::long_call::long_call;
+use crate::record::Record;
+use crate::scene::{Named, Scene};
+use crate::threads;
+
+/// What is assumed: the words of [`Basis`].
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Assumed {
+    margin: f64,
+    service_factor: f64,
+    teeth: u32,
+    face_width_modules: f64,
+    allowable_stress_mpa: Option<f64>,
+    tolerance: f64,
+}
+
+/// The own motion of `scene`, and each of `records` in its place.
+fn motions(scene: &SimScene, records: Vec<sprag_sim::record::Record>) -> Result<Vec<StudyMotion>, GroundError> {
+    let mut motions: Vec<StudyMotion> = StudyMotion::own(scene)?.into_iter().collect();
+    for record in records {
+        let files = RecordFiles { horizontal: Path::new(&record.name).to_owned(), vertical: None };
+        motions.push(StudyMotion::record(&SimScene { given: [record].into(), ..scene.clone() }, &files)?);
+    }
+    Ok(motions)
+}
+
+/// Parts of every device of a scene that has a flywheel: a dict of tables, the page, and the findings as JSON.
+///
+/// # Errors
+/// `InputError` for an assumption outside its range, and a scene that cannot be designed; `RunError` where nothing asks for a size.
+#[pyfunction]
+#[pyo3(signature = (scene, *, records, devices, basis, threads = None))]
+pub fn design<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    records: Named,
+    devices: Vec<String>,
+    basis: Assumed,
+    threads: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let pool = self::threads(threads)?;
+    let scene = &scene.scene;
+    let Assumed { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance } = basis;
+    let allowable_stress_mpa = allowable_stress_mpa.unwrap_or_else(|| Basis::allowable_stress_of(scene));
+    let basis = Basis { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance };
+    let named = |(name, record): (String, Py<Record>)| sprag_sim::record::Record { name, ..record.bind(py).get().record.clone() };
+    let records: Vec<_> = records.into_iter().map(named).collect();
+    let made = long_call(py, |interrupt| {
+        pool.install(|| -> PyResult<_> {
+            let problem = Problem::new(scene, &devices, basis).map_err(|error| error.raise())?;
+            let motions = motions(scene, records).map_err(|error| error.raise())?;
+            if motions.is_empty() {
+                return Err(missing("records", "one record or more, or a motion of the scene"));
+            }
+            let findings = problem.solve(&motions, interrupt, &|_| (), &|| ()).map_err(|error| error.raise())?;
+            let tables = [
+                ("parts", Columns::of(&parts_table(&findings))),
+                ("motions", Columns::of(&motion_table(&findings, &motions, problem.mass_kg()))),
+                ("delays", Columns::of(&delay_table(&findings))),
+            ];
+            let page = page(&problem, &findings, motions.len(), 0);
+            let texts = [serde_json::to_string(&findings.lists), serde_json::to_string(&findings.worst)];
+            Ok((tables, page, texts, findings.failed, findings.left_out))
+        })
+    })?;
+    let (tables, page, [lists, worst], failures, left_out) = made?;
+    let dict = PyDict::new(py);
+    for (name, table) in tables {
+        dict.set_item(name, table.map_err(failed)?.dict(py)?)?;
+    }
+    dict.set_item("page", page)?;
+    dict.set_item("findings", lists.map_err(refused)?)?;
+    dict.set_item("accuracy", worst.map_err(refused)?)?;
+    dict.set_item("warnings", scene.warnings())?;
+    dict.set_item("failed", failures)?;
+    dict.set_item("left_out", left_out)?;
+    Ok(dict)
+}

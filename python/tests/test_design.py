@@ -1,0 +1,88 @@
+"""Parts lists: those of the command, and what is refused."""
+
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sprag
+
+MASS_KG = 10000.0
+
+
+@pytest.fixture(scope="module")
+def scene(scenes: Path) -> sprag.Scene:
+    return sprag.Scene.read(scenes / "near_fault.toml").set("block.mass_kg", MASS_KG)
+
+
+def burst(peak_m_s2: float) -> sprag.Record:
+    t = np.arange(0.0, 8.0, 0.01)
+    return sprag.Record(peak_m_s2 * np.sin(2.5 * t) * np.exp(-((t - 4.0) ** 2)), time_step_s=0.01, name="burst")
+
+
+def test_parts_are_those_of_the_command(scene: sprag.Scene, scenes: Path, command, tmp_path: Path) -> None:
+    found = sprag.design(scene)
+    assert found == sprag.design(scene, threads=1)
+    read = command("design", scenes / "near_fault.toml", "--set", f"block.mass_kg={MASS_KG}")
+    for table in ["parts", "motions", "delays"]:
+        rows, columns = read(table), getattr(found, table)
+        assert list(rows[0]) == list(columns)
+        assert len(rows) == len(columns)
+        for column, values in columns.columns.items():
+            texts = [row[column] for row in rows]
+            if isinstance(values, np.ndarray):
+                assert np.array_equal([float(text or "nan") for text in texts], values.astype(float), equal_nan=True), column
+            else:
+                assert texts == [value or "" for value in values], column
+    assert found.page == found._repr_markdown_() == (tmp_path / "out" / "design.md").read_text()
+    assert found.findings == json.loads((tmp_path / "out" / "summary.json").read_text())["designs"]
+    assert pickle.loads(pickle.dumps(found)) == found
+
+
+def test_records_come_beside_the_motion_of_the_scene(scene: sprag.Scene) -> None:
+    alone = sprag.design(scene, devices=["clutched pair"])
+    both = sprag.design(scene, devices=["clutched pair"], records=[burst(0.01), burst(4.0)])
+    assert alone.motions["motion"] == ["own motion"]
+    assert both.motions["motion"] == ["own motion", "burst", "burst 2"]
+    # What does not lift the block asks for nothing, and the scene's own motion for what it asks for alone.
+    assert both.motions["peak_rotation"][0] == alone.motions["peak_rotation"][0]
+    assert both.motions["peak_rotation"][1] == 0.0 < both.motions["peak_rotation"][2]
+
+
+def test_parts_grow_with_what_is_assumed(scene: sprag.Scene) -> None:
+    def chosen(**assumed: float) -> float:
+        parts = sprag.design(scene, devices=["clutched pair"], **assumed).parts
+        return float(parts["chosen"][parts["quantity"].index("travel to each side")])
+
+    assert chosen(margin=2.0) > chosen(margin=1.0)
+
+
+@pytest.mark.parametrize(
+    ("assumed", "key"),
+    [
+        ({"margin": 0.5}, "margin"),
+        ({"service_factor": 11.0}, "service_factor"),
+        ({"teeth": 3}, "teeth"),
+        ({"face_width_modules": 1.0}, "face_width_modules"),
+        ({"allowable_stress_mpa": 0.0}, "allowable_stress_mpa"),
+        ({"tolerance": float("nan")}, "tolerance"),
+        ({"devices": ["pendulum"]}, "devices"),
+        ({"threads": 0}, "threads"),
+    ],
+)
+def test_what_cannot_be_assumed_is_refused(scene: sprag.Scene, assumed: dict[str, object], key: str) -> None:
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.design(scene, **assumed)
+    assert raised.value.key == key
+
+
+def test_scenes_that_ask_for_no_size_are_refused(scene: sprag.Scene) -> None:
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.design(scene.set("block.mass_kg", None))
+    assert raised.value.key == "block.mass_kg"
+    with pytest.raises(sprag.InputError, match="no device has a flywheel"):
+        sprag.design(scene.set("device", [{"kind": "none"}]))
+    with pytest.raises(sprag.RunError, match="no motion lifts the block"):
+        sprag.design(scene.set("ground.0.scale", 0.001))
