@@ -347,7 +347,8 @@ mod tests {
         peak.unwrap()
     }
 
-    /// The closed loop with ideal sensors is another program: its plant locates events, and its controller estimates. They differ by about a tick.
+    /// The closed loop with ideal sensors is another program: its plant locates events, and its controller estimates and notices uplift. They
+    /// differ by about a tick; a law that reads more than the motion differs more behind a clutch that is late.
     #[test]
     fn full_state_feedback_is_the_closed_loop_with_ideal_sensors() {
         let interrupt = Interrupt::default();
@@ -357,12 +358,13 @@ mod tests {
             variant.overrides.extend(IDEAL.map(str::to_owned));
             variant.overrides.push("controller.sensors.suite=\"ideal\"".to_owned());
             for motion in [Family::ALL[1].at(4.0, 2.5), Family::ALL[3].at(3.0, 2.0), Family::ALL[4].at(5.0, 4.0)] {
-                for (name, law) in [("resisting-predicted", PLAIN[2]), ("costate", ClutchLaw::Costate(Costate::TRAINED))] {
+                let costate = ClutchLaw::Costate(Costate::TRAINED);
+                for (name, law, near) in [("resisting-predicted", PLAIN[2], 0.05), ("costate", costate, 0.1)] {
                     let named = variant.with(&format!("controller.law=\"{name}\""));
                     let closed = run_loop(&motion, &named, &Conditions::new(None, &interrupt)).unwrap();
                     let peak = full_state(&motion, &variant, law).unwrap();
                     assert!(
-                        (peak / closed.peak - 1.0).abs() < 0.05,
+                        (peak / closed.peak - 1.0).abs() < near,
                         "{} {name} {motion:?}: {peak} {}",
                         setting.name,
                         closed.peak
