@@ -338,13 +338,13 @@ mod tests {
     use crate::loop_study::law_settings::IDEAL;
     use sprag_sim::interrupt::Interrupt;
 
-    fn full_state(motion: &Motion, variant: &Variant, law: ClutchLaw) -> Option<f64> {
+    fn full_state(motion: &Motion, variant: &Variant, law: ClutchLaw) -> Followed {
         let interrupt = Interrupt::default();
-        let peak = with_loop(motion, variant, &Conditions::new(None, &interrupt), |task| {
+        let followed = with_loop(motion, variant, &Conditions::new(None, &interrupt), |task| {
             let full_state = FullState::of(task)?.unwrap();
-            Ok(full_state.follow(law, &full_state.shaking(&task.ground.horizontal)).peak)
+            Ok(full_state.follow(law, &full_state.shaking(&task.ground.horizontal)))
         });
-        peak.unwrap()
+        followed.unwrap()
     }
 
     /// The closed loop with ideal sensors is another program: its plant locates events, and its controller estimates and notices uplift. They
@@ -362,7 +362,16 @@ mod tests {
                 for (name, law, near) in [("resisting-predicted", PLAIN[2], 0.05), ("costate", costate, 0.1)] {
                     let named = variant.with(&format!("controller.law=\"{name}\""));
                     let closed = run_loop(&motion, &named, &Conditions::new(None, &interrupt)).unwrap();
-                    let peak = full_state(&motion, &variant, law).unwrap();
+                    let followed = full_state(&motion, &variant, law);
+                    let peak = followed.peak.unwrap();
+                    // A block that cannot fall any more is not followed to its rest.
+                    let all = closed.ending.decisions.switches.div_ceil(2);
+                    assert!(
+                        (1..=all).contains(&followed.engagements),
+                        "{} {name}: {} of {all}",
+                        setting.name,
+                        followed.engagements
+                    );
                     assert!(
                         (peak / closed.peak - 1.0).abs() < near,
                         "{} {name} {motion:?}: {peak} {}",
