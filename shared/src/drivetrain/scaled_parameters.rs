@@ -2,7 +2,7 @@
 
 use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients, Push};
 use super::rise::{Line, whole};
-use crate::ground::Accelerations;
+use crate::equation::Accelerations;
 use crate::math::root::bisection;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;

@@ -2,9 +2,9 @@
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients, Push, UNKNOWNS};
 use super::scaled_parameters::ScaledParameters;
+use crate::equation::Accelerations;
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
-use crate::ground::Accelerations;
 use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;

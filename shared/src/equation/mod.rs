@@ -25,6 +25,10 @@ use crate::math::value::Value;
 use body::{Body, FullBody};
 use lever::Lever;
 
+/// Accelerations at an instant, in g: of the ground, horizontal and vertical, and of a support of its own motion, horizontal and relative to
+/// the ground.
+pub type Accelerations<S> = [S; 3];
+
 /// Equation of motion of one rotation, of second order and smooth between events.
 pub trait Equation<S: Scalar>: Copy {
     /// Whether the clutch's switching function is the acceleration itself (paper kinematics), so that one search finds

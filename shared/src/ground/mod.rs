@@ -21,10 +21,6 @@ pub use ricker::Ricker;
 
 use crate::math::scalar::Real;
 
-/// Accelerations at an instant, in g: of the ground, horizontal and vertical, and of a support of its own motion, horizontal and relative to
-/// the ground.
-pub type Accelerations<S> = [S; 3];
-
 /// A smooth stretch of ground acceleration ü_g/g over local time τ ≥ 0 (s).
 pub trait GroundSegment<S: Real> {
     /// ü_g/g at τ.

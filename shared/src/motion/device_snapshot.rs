@@ -4,8 +4,8 @@
 //! 1/s³.
 
 use crate::drivetrain::transmission::Account;
+use crate::equation::Accelerations;
 use crate::equation::motion::Motion;
-use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 

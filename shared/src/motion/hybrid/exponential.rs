@@ -12,8 +12,8 @@
 use super::mode_output::{KnownModeStart, ModeStart, Place};
 use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::drivetrain::transmission::Transmission;
+use crate::equation::Accelerations;
 use crate::equation::body::Body;
-use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 
 /// ÿ + 2a ẏ + Ω² y = B, from y and ẏ over `h`.

@@ -3,8 +3,8 @@
 use super::mode_output::{ModeOutput, Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::ModeCoefficients;
+use crate::equation::Accelerations;
 use crate::equation::motion::Motion;
-use crate::ground::Accelerations;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};

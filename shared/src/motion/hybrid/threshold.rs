@@ -3,8 +3,8 @@
 use super::mode_output::{Place, Shaking};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
+use crate::equation::Accelerations;
 use crate::equation::body::Body;
-use crate::ground::Accelerations;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;

@@ -1,8 +1,8 @@
 //! The structure of a closed loop: any device that takes commands, followed over the ground motion a short piece at a time.
 
 use sprag_loops::{HybridLoop, Method, hybrid};
+use sprag_shared::equation::Accelerations;
 use sprag_shared::equation::body::Body;
-use sprag_shared::ground::Accelerations;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;

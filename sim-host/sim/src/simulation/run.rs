@@ -1,6 +1,7 @@
 //! `simulate`: every device of a scene under its ground motion.
 
-use sprag_shared::ground::{Accelerations, GroundSegment};
+use sprag_shared::equation::Accelerations;
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::state::Stopped;
 use sprag_shared::observers::checks::Checks;
