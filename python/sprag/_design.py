@@ -106,8 +106,8 @@ def design(
         "tolerance": tolerance,
     }
     native = _core.design(scene._native, records=named(records), devices=list(devices), basis=basis, threads=threads)
-    texts = {name: json.loads(native.pop(name)) for name in ("findings", "accuracy")}
-    lines = {name: tuple(native.pop(name)) for name in ("warnings", "failed", "left_out")}
+    values: dict[str, Any] = {name: json.loads(native.pop(name)) for name in ("findings", "accuracy")}
+    values |= {name: tuple(native.pop(name)) for name in ("warnings", "failed", "left_out")}
     page = native.pop("page")
     tables = {name: Columns(columns) for name, columns in native.items()}
-    return Design(scene=scene, page=page, **tables, **texts, **lines)
+    return Design(scene=scene, page=page, **values | tables)
