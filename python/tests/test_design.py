@@ -19,7 +19,7 @@ def scene(scenes: Path) -> sprag.Scene:
 
 def burst(peak_m_s2: float) -> sprag.Record:
     t = np.arange(0.0, 8.0, 0.01)
-    return sprag.Record(peak_m_s2 * np.sin(2.5 * t) * np.exp(-((t - 4.0) ** 2)), time_step_s=0.01, name="burst")
+    return sprag.Record(peak_m_s2 * np.sin(8.0 * t) * np.exp(-((t - 4.0) ** 2)), time_step_s=0.01, name="burst")
 
 
 def test_parts_are_those_of_the_command(scene: sprag.Scene, scenes: Path, command, tmp_path: Path) -> None:
@@ -45,7 +45,7 @@ def test_records_come_beside_the_motion_of_the_scene(scene: sprag.Scene) -> None
     alone = sprag.design(scene, devices=["clutched pair"])
     both = sprag.design(scene, devices=["clutched pair"], records=[burst(0.01), burst(4.0)])
     assert alone.motions["motion"] == ["own motion"]
-    assert both.motions["motion"] == ["own motion", "burst", "burst 2"]
+    assert both.motions["motion"] == ["own motion", "burst", "burst (2)"]
     # What does not lift the block asks for nothing, and the scene's own motion for what it asks for alone.
     assert both.motions["peak_rotation"][0] == alone.motions["peak_rotation"][0]
     assert both.motions["peak_rotation"][1] == 0.0 < both.motions["peak_rotation"][2]
