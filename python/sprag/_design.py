@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -12,6 +11,7 @@ from ._columns import Columns
 from ._core import Record
 from ._result import Result
 from ._scene import Scene, named
+from ._study import answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,8 +106,5 @@ def design(
         "tolerance": tolerance,
     }
     native = _core.design(scene._native, records=named(records), devices=list(devices), basis=basis, threads=threads)
-    values: dict[str, Any] = {name: json.loads(native.pop(name)) for name in ("findings", "accuracy")}
-    values |= {name: tuple(native.pop(name)) for name in ("warnings", "failed", "left_out")}
     page = native.pop("page")
-    tables = {name: Columns(columns) for name, columns in native.items()}
-    return Design(scene=scene, page=page, **values | tables)
+    return Design(scene=scene, page=page, **answer(native, ("warnings", "failed", "left_out")))

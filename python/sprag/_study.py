@@ -184,11 +184,11 @@ class Optimum(Result):
     __hash__ = Result.__hash__
 
 
-def _answer(native: dict[str, Any]) -> dict[str, Any]:
-    """What comes from the native module, in the types of results."""
+def answer(native: dict[str, Any], lines: tuple[str, ...] = ("warnings", "unreadable", "left_out")) -> dict[str, Any]:
+    """What comes from the native module, in the types of results: texts, `lines`, and else tables."""
     texts = {name: json.loads(native.pop(name)) for name in ("findings", "accuracy")}
-    lines = {name: tuple(native.pop(name)) for name in ("warnings", "unreadable", "left_out")}
-    return texts | lines | {name: Columns(columns) for name, columns in native.items()}
+    said = {name: tuple(native.pop(name)) for name in lines}
+    return texts | said | {name: Columns(columns) for name, columns in native.items()}
 
 
 def cloud(study: Study, *, threads: int | None = None) -> Cloud:
@@ -206,7 +206,7 @@ def cloud(study: Study, *, threads: int | None = None) -> Cloud:
     InputError
         For a study without a record that can be read.
     """
-    return Cloud(study=study, **_answer(_core.cloud(study._native, threads=threads)))
+    return Cloud(study=study, **answer(_core.cloud(study._native, threads=threads)))
 
 
 def optimise(study: Study, *, threads: int | None = None) -> Optimum:
@@ -226,8 +226,8 @@ def optimise(study: Study, *, threads: int | None = None) -> Optimum:
     RunError
         Where no device could be tried.
     """
-    answer = _answer(_core.optimise(study._native, threads=threads))
-    return Optimum(best=answer["findings"]["best"], study=study, **answer)
+    found = answer(_core.optimise(study._native, threads=threads))
+    return Optimum(best=found["findings"]["best"], study=study, **found)
 
 
 def accuracy(scene: Scene, *, cells: int = 12, smallest_step: float = 1e-4, threads: int | None = None) -> Columns:

@@ -5,6 +5,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sprag_report::columns::{Column, Kind, RowWriter, Table, TableError, Value};
 
+use crate::errors::failed;
+
 /// A column that grows.
 enum Growing {
     Number(Vec<f64>),
@@ -32,6 +34,21 @@ impl RowWriter for Rows {
         }
         Ok(())
     }
+}
+
+/// A dict of tables by their names.
+///
+/// # Errors
+/// `RunError` for a table that contradicts its columns.
+pub fn tables<'py, const N: usize>(
+    py: Python<'py>,
+    tables: [(&str, Result<Columns, TableError>); N],
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (name, table) in tables {
+        dict.set_item(name, table.map_err(failed)?.dict(py)?)?;
+    }
+    Ok(dict)
 }
 
 /// A table that Python has not got yet, so that it can be made without the interpreter's lock.

@@ -12,10 +12,9 @@ use sprag_studies::design::study::Problem;
 use sprag_studies::design::table::{delay_table, motion_table, parts_table};
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
 
-use crate::columns::Columns;
-use crate::errors::{Raise as _, failed, missing, refused};
+use crate::columns::{self, Columns};
+use crate::errors::{Raise as _, missing, refused};
 use crate::long_call::long_call;
-use crate::record::Record;
 use crate::scene::{Named, Scene};
 use crate::threads;
 
@@ -33,6 +32,9 @@ pub struct Assumed {
 
 /// The own motion of `scene`, and each of `records` in its place.
 fn motions(scene: &SimScene, records: Vec<sprag_sim::record::Record>) -> Result<Vec<StudyMotion>, GroundError> {
+    if !records.is_empty() {
+        StudyMotion::may_be_replaced(scene)?;
+    }
     let mut motions: Vec<StudyMotion> = StudyMotion::own(scene)?.into_iter().collect();
     for record in records {
         let files = RecordFiles { horizontal: Path::new(&record.name).to_owned(), vertical: None };
@@ -60,8 +62,7 @@ pub fn design<'py>(
     let Assumed { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance } = basis;
     let allowable_stress_mpa = allowable_stress_mpa.unwrap_or_else(|| Basis::allowable_stress_of(scene));
     let basis = Basis { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance };
-    let named = |(name, record): (String, Py<Record>)| sprag_sim::record::Record { name, ..record.bind(py).get().record.clone() };
-    let records: Vec<_> = records.into_iter().map(named).collect();
+    let records = crate::scene::records(py, &records);
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {
             let problem = Problem::new(scene, &devices, basis).map_err(|error| error.raise())?;
@@ -81,10 +82,7 @@ pub fn design<'py>(
         })
     })?;
     let (tables, page, [lists, worst], failures, left_out) = made?;
-    let dict = PyDict::new(py);
-    for (name, table) in tables {
-        dict.set_item(name, table.map_err(failed)?.dict(py)?)?;
-    }
+    let dict = columns::tables(py, tables)?;
     dict.set_item("page", page)?;
     dict.set_item("findings", lists.map_err(refused)?)?;
     dict.set_item("accuracy", worst.map_err(refused)?)?;

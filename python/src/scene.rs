@@ -30,12 +30,18 @@ pub struct Scene {
 /// Records in memory, and what the scene calls them.
 pub type Named = Vec<(String, Py<Record>)>;
 
+/// The records, called what the scene calls them.
+pub fn records(py: Python<'_>, named: &Named) -> Vec<sprag_sim::record::Record> {
+    let called = |(name, record): &(String, Py<Record>)| sprag_sim::record::Record {
+        name: name.clone(),
+        ..record.bind(py).get().record.clone()
+    };
+    named.iter().map(called).collect()
+}
+
 impl Scene {
     fn of(py: Python<'_>, table: Table, read: SimScene, folder: PathBuf, records: Named) -> Scene {
-        let given: Arc<[_]> = records
-            .iter()
-            .map(|(name, record)| sprag_sim::record::Record { name: name.clone(), ..record.bind(py).get().record.clone() })
-            .collect();
+        let given: Arc<[_]> = self::records(py, &records).into();
         Scene { scene: SimScene { folder, given, ..read }, table, records }
     }
 }

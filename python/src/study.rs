@@ -19,10 +19,9 @@ use sprag_studies::optimise::findings::Findings as Designs;
 use sprag_studies::optimise::problem::{Choices, Problem};
 use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 
-use crate::columns::Columns;
+use crate::columns::{self, Columns};
 use crate::errors::{Raise as _, failed, missing, range, refused};
 use crate::long_call::long_call;
-use crate::record::Record;
 use crate::scene::{Named, Scene};
 use crate::threads;
 
@@ -49,11 +48,8 @@ impl Study {
         records: Option<Named>,
     ) -> PyResult<Study> {
         let given = records.map(|records| {
-            let named = |(name, record): (String, Py<Record>)| {
-                let record = sprag_sim::record::Record { name: name.clone(), ..record.bind(py).get().record.clone() };
-                StudyRecord::of(name, record, None)
-            };
-            records.into_iter().map(named).collect::<Vec<_>>()
+            let of = |record: sprag_sim::record::Record| StudyRecord::of(record.name.clone(), record, None);
+            crate::scene::records(py, &records).into_iter().map(of).collect::<Vec<_>>()
         });
         let files = match &given {
             Some(records) if records.is_empty() => return Err(missing("records", "one record or more")),
@@ -143,10 +139,7 @@ pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyR
         })
     })?;
     let (records, tables, findings, worst, left_out) = made?;
-    let dict = PyDict::new(py);
-    for (name, table) in tables {
-        dict.set_item(name, table.map_err(failed)?.dict(py)?)?;
-    }
+    let dict = columns::tables(py, tables)?;
     dict.set_item("findings", findings)?;
     dict.set_item("accuracy", worst)?;
     study.say(&dict, &records, &left_out)?;
@@ -186,10 +179,7 @@ pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> 
         })
     })?;
     let (tables, findings, worst, left_out, records) = made?;
-    let dict = PyDict::new(py);
-    for (name, table) in tables {
-        dict.set_item(name, table.map_err(failed)?.dict(py)?)?;
-    }
+    let dict = columns::tables(py, tables)?;
     dict.set_item("findings", findings)?;
     dict.set_item("accuracy", worst)?;
     study.say(&dict, &records, &left_out)?;

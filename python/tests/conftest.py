@@ -6,8 +6,11 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import settings
+
+import sprag
 
 # A check does not fail by chance.
 settings.register_profile("check", derandomize=True)
@@ -20,6 +23,23 @@ Command = Callable[..., Callable[[str], Rows]]
 @pytest.fixture(scope="session")
 def scenes() -> Path:
     return Path(__file__).parents[2] / "scenes"
+
+
+@pytest.fixture(scope="session")
+def same_table() -> Callable[[Rows, sprag.Columns], None]:
+    """Asserts that a table that the command wrote is one of Python's."""
+
+    def assert_same(rows: Rows, columns: sprag.Columns) -> None:
+        assert list(rows[0]) == list(columns)
+        assert len(rows) == len(columns)
+        for column, values in columns.columns.items():
+            texts = [row[column] for row in rows]
+            if isinstance(values, np.ndarray):
+                assert np.array_equal(np.array([float(text or "nan") for text in texts]), values.astype(float), equal_nan=True), column
+            else:
+                assert texts == [value or "" for value in values], column
+
+    return assert_same
 
 
 @pytest.fixture

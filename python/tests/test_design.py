@@ -22,20 +22,12 @@ def burst(peak_m_s2: float) -> sprag.Record:
     return sprag.Record(peak_m_s2 * np.sin(8.0 * t) * np.exp(-((t - 4.0) ** 2)), time_step_s=0.01, name="burst")
 
 
-def test_parts_are_those_of_the_command(scene: sprag.Scene, scenes: Path, command, tmp_path: Path) -> None:
+def test_parts_are_those_of_the_command(scene: sprag.Scene, scenes: Path, command, same_table, tmp_path: Path) -> None:
     found = sprag.design(scene)
     assert found == sprag.design(scene, threads=1)
     read = command("design", scenes / "near_fault.toml", "--set", f"block.mass_kg={MASS_KG}")
     for table in ["parts", "motions", "delays"]:
-        rows, columns = read(table), getattr(found, table)
-        assert list(rows[0]) == list(columns)
-        assert len(rows) == len(columns)
-        for column, values in columns.columns.items():
-            texts = [row[column] for row in rows]
-            if isinstance(values, np.ndarray):
-                assert np.array_equal([float(text or "nan") for text in texts], values.astype(float), equal_nan=True), column
-            else:
-                assert texts == [value or "" for value in values], column
+        same_table(read(table), getattr(found, table))
     assert found.page == found._repr_markdown_() == (tmp_path / "out" / "design.md").read_text()
     assert found.findings == json.loads((tmp_path / "out" / "summary.json").read_text())["designs"]
     assert pickle.loads(pickle.dumps(found)) == found
@@ -84,5 +76,9 @@ def test_scenes_that_ask_for_no_size_are_refused(scene: sprag.Scene) -> None:
     assert raised.value.key == "block.mass_kg"
     with pytest.raises(sprag.InputError, match="no device has a flywheel"):
         sprag.design(scene.set("device", [{"kind": "none"}]))
+    vertical = scene.set("vertical", [{"motion": "sine", "amplitude_g": 0.1, "frequency_hz": 1.0}])
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.design(vertical, records=[burst(4.0)])
+    assert raised.value.key == "vertical"
     with pytest.raises(sprag.RunError, match="no motion lifts the block"):
         sprag.design(scene.set("ground.0.scale", 0.001))

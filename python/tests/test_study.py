@@ -39,22 +39,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize(("name", "tables"), [("cloud", ["runs", "demand", "fragility", "ranking"]), ("optimise", ["designs", "motions"])])
-def test_tables_are_those_of_the_command(folder: Path, command, name: str, tables: list[str]) -> None:
+def test_tables_are_those_of_the_command(folder: Path, command, same_table, name: str, tables: list[str]) -> None:
     study = sprag.Study.read(folder / "study.toml")
     found = getattr(sprag, name)(study)
     assert found == getattr(sprag, name)(study, threads=1)
     read = command(name, folder / "study.toml")
     for table in tables:
-        rows = read(table)
-        columns = getattr(found, table)
-        assert list(rows[0]) == list(columns)
-        assert len(rows) == len(columns)
-        for column, values in columns.columns.items():
-            texts = [row[column] for row in rows]
-            if isinstance(values, np.ndarray):
-                assert np.array_equal(np.array([float(text or "nan") for text in texts]), values.astype(float), equal_nan=True), column
-            else:
-                assert texts == [value or "" for value in values], column
+        same_table(read(table), getattr(found, table))
 
 
 def test_records_in_memory_are_those_of_files(folder: Path) -> None:

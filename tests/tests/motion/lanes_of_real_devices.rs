@@ -204,8 +204,8 @@ fn real_devices_under_records_do_what_they_do_alone() {
             println!("{geometry:?} {index}: {:?} {:?}", seen.steps, seen.phases);
             assert!(seen.phases[Phase::Rest as usize] > 10 && seen.phases[Phase::Overturned as usize] > 5, "{:?}", seen.phases);
             let [plain, located, by_core] = seen.steps;
-            // A few per cent are the core's alone; more where flywheels are overrun, where the force on a mesh has a sign to look for, and
-            // with viscous slip.
+            // A few per cent are the core's alone; more where flywheels are overrun, where the force on a mesh has a sign to look for, and with
+            // viscous slip, of which lanes have no equations.
             let hard = matches!(drivetrain.engagement, Engagement::Overrunning | Engagement::Viscous { .. });
             let many = hard || drivetrain.rack.load_friction != 0.0;
             assert!(many || by_core * 25 <= plain + located, "{:?}", seen.steps);

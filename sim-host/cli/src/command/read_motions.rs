@@ -22,8 +22,8 @@ impl ReadMotions {
     /// A scene that has no record to replace, or none of its own without any of `records`, one whose `[[vertical]]` does not belong to them, and
     /// where nothing could be read.
     pub fn of(scene: &Scene, records: &[RecordFiles]) -> anyhow::Result<ReadMotions> {
-        if !records.is_empty() && !scene.file.vertical.is_empty() {
-            anyhow::bail!("{}: vertical: does not belong to the records; leave out [[vertical]] or --records", scene.origin);
+        if !records.is_empty() {
+            StudyMotion::may_be_replaced(scene)?;
         }
         if let (Some(first), true) = (records.first(), scene.file.ground.iter().all(|table| table.motion != Motion::Record)) {
             scene.clone().use_record(&first.horizontal)?;

@@ -45,6 +45,13 @@ pub struct DecisionReport {
     pub chatter: u32,
 }
 
+impl DecisionReport {
+    /// How often the clutches engaged: each second movement, the first one included.
+    pub fn engagements(&self) -> u32 {
+        self.switches.div_ceil(2)
+    }
+}
+
 /// Longest delay of a movement that still belongs to a change of the law, s.
 const LONGEST: f64 = 0.1;
 

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use sprag_ensemble::shaken::Samples;
 use sprag_sim::record::RecordSummary;
-use sprag_sim::scene::Scene;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::under_records::Shaking;
 
 use super::variants::VERTICAL_RATIO;
@@ -48,6 +48,17 @@ impl StudyMotion {
             return Ok(None);
         }
         StudyMotion::of(scene, "own motion".to_owned(), true, None).map(Some)
+    }
+
+    /// Whether records may take the place of the scene's.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] for a scene with a vertical motion.
+    pub fn may_be_replaced(scene: &Scene) -> Result<(), SceneError> {
+        if scene.file.vertical.is_empty() {
+            return Ok(());
+        }
+        Err(scene.key("vertical").conflict("does not belong to the records; leave out [[vertical]] or --records"))
     }
 
     /// `record` in the place of the scene's.
