@@ -3,6 +3,8 @@
 //! Exceptions are carried out here, as the processor does it (ARMv7-M, B1.5): registers go to the stack, the handler runs, and its return
 //! brings them back.
 
+use std::rc::Rc;
+
 use crate::chip::{Chip, REGISTERS, StuckBit};
 use crate::engine::{Context, Engine, Register};
 use crate::image::Image;
@@ -27,11 +29,11 @@ const FLOATING_POINT: u32 = 4;
 const IF_THEN: u32 = 0x0600_FC00;
 
 /// An exception that runs.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Running {
     number: u32,
     priority: i32,
-    before: Context,
+    before: Rc<Context>,
     /// Instructions and half cycles until it began.
     begun: (u64, u64),
 }
@@ -78,6 +80,18 @@ pub struct Bench {
     pub last_tick: Option<TickCost>,
     /// Resets so far, and when.
     pub resets: Vec<(u64, Cause)>,
+}
+
+/// A board at one time, to come back to.
+pub struct Snapshot {
+    chip: Chip,
+    registers: Context,
+    running: Vec<Running>,
+    program: u32,
+    asleep: bool,
+    lockup: bool,
+    last_tick: Option<TickCost>,
+    resets: Vec<(u64, Cause)>,
 }
 
 impl Bench {
@@ -159,6 +173,29 @@ impl Bench {
     /// Now.
     pub fn now(&self) -> u64 {
         self.chip().now
+    }
+
+    /// Processor, chip and board as they are now.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            chip: self.chip().clone(),
+            registers: self.engine.save(),
+            running: self.running.clone(),
+            program: self.program,
+            asleep: self.asleep,
+            lockup: self.lockup,
+            last_tick: self.last_tick,
+            resets: self.resets.clone(),
+        }
+    }
+
+    /// As they were. What this bench has translated of the program serves on, which a new bench begins with.
+    pub fn restore(&mut self, then: &Snapshot) {
+        self.chip_mut().restore(&then.chip);
+        self.engine.restore(&then.registers);
+        self.running.clone_from(&then.running);
+        self.resets.clone_from(&then.resets);
+        (self.program, self.asleep, self.lockup, self.last_tick) = (then.program, then.asleep, then.lockup, then.last_tick);
     }
 
     /// Wakes the processor, as an event may at any time.
@@ -276,7 +313,7 @@ impl Bench {
     fn enter(&mut self, exception: u32) {
         let processor = self.engine.processor();
         processor.set(Register::Program, self.program | 1);
-        let before = self.engine.save();
+        let before = Rc::new(self.engine.save());
         let floating = processor.get(Register::Control) & FLOATING_POINT != 0;
         let stack = processor.get(Register::Stack);
         let frame = stack.wrapping_sub(if floating { 0x68 } else { 0x20 }) & !7;

@@ -34,6 +34,8 @@ use crate::time::SECOND;
 /// First address of the memory.
 pub const RAM: u32 = 0x2000_0000;
 const RAM_LENGTH: usize = 128 << 10;
+/// Places for the lengths of blocks: few of a program share one.
+const LENGTHS: usize = 1 << 14;
 
 /// Pin of port C that the commissioning jumper takes to ground.
 pub const JUMPER: usize = 13;
@@ -50,7 +52,7 @@ pub struct StuckBit {
 }
 
 /// Everything but the processor.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Chip {
     model: Model,
     /// Now.
@@ -61,8 +63,10 @@ pub struct Chip {
     pub instructions: u64,
     /// Counts of time in half a cycle.
     half_cycle: u64,
-    /// Rate of the timers' clock at APB1, 1/s.
-    timer_hz: u64,
+    /// Rates of the timers' clocks, 1/s.
+    timer_hz: [u64; 2],
+    /// Rates of the peripherals' clocks, 1/s.
+    peripheral_hz: [u64; 2],
     /// When something happens by itself that the processor must see.
     event: u64,
     /// When the bench wants the processor back.
@@ -129,8 +133,8 @@ pub struct Chip {
     pub returned: bool,
     /// How often a block of instructions ran in a handler, by its address and length, where that is asked for.
     pub profile: Option<HashMap<(u32, u32), u64>>,
-    /// Instructions of a block, by its address.
-    lengths: HashMap<(u32, u32), u32>,
+    /// Instructions of a block: its address, its length and how many, at the place that its address gives.
+    lengths: Vec<(u32, u32, u32)>,
     active: i32,
     powered: bool,
     /// Until when the coils' currents are known, and whether they asked for a break then.
@@ -147,7 +151,8 @@ impl Chip {
             half_cycles: 0,
             instructions: 0,
             half_cycle: 525,
-            timer_hz: 16_000_000,
+            timer_hz: [16_000_000; 2],
+            peripheral_hz: [16_000_000; 2],
             event: 0,
             until: 0,
             continues: false,
@@ -183,7 +188,7 @@ impl Chip {
             faults: Vec::new(),
             returned: false,
             profile: None,
-            lengths: HashMap::new(),
+            lengths: vec![(0, 0, 0); LENGTHS],
             active: IDLE,
             powered: true,
             coils_at: 0,
@@ -195,6 +200,17 @@ impl Chip {
         chip
     }
 
+    /// Everything as `kept` has it; the processor goes on seeing the memories of this one.
+    pub fn restore(&mut self, kept: &Chip) {
+        let before = std::mem::replace(self, kept.clone());
+        let mapped = [before.ram, before.returns, before.core_coupled, before.flash.memory];
+        let copies = [&mut self.ram, &mut self.returns, &mut self.core_coupled, &mut self.flash.memory];
+        for (mapped, copy) in mapped.into_iter().zip(copies) {
+            mapped.restore(copy);
+            *copy = mapped;
+        }
+    }
+
     /// The crystal changes to another rate, 1/s.
     pub fn set_crystal(&mut self, hz: u64) {
         self.rcc.crystal_hz = hz;
@@ -202,8 +218,9 @@ impl Chip {
     }
 
     fn clock_changed(&mut self) {
-        let [timers, _] = self.rcc.timer_hz();
-        let before = std::mem::replace(&mut self.timer_hz, timers);
+        let [before, _] = std::mem::replace(&mut self.timer_hz, self.rcc.timer_hz());
+        let [timers, _] = self.timer_hz;
+        self.peripheral_hz = self.rcc.peripheral_hz();
         if before != timers {
             self.counters.iter_mut().for_each(|counter| counter.clocked(before, timers, self.now));
         }

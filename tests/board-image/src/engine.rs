@@ -156,10 +156,25 @@ impl Memory {
         u32::from_le_bytes(bytes)
     }
 
+    /// Takes what another memory of this length holds; the processor sees it.
+    pub fn restore(&self, kept: &Memory) {
+        let mut bytes = vec![0; kept.length];
+        kept.read(kept.start, &mut bytes);
+        self.write(self.start, &bytes);
+    }
+
     fn offset(&self, address: u32, length: usize) -> usize {
         let offset = address.wrapping_sub(self.start) as usize;
         assert!(offset.saturating_add(length) <= self.length, "{address:#010x} is outside of this memory");
         offset
+    }
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Memory {
+        let copy = Memory::new(self.start, self.length, 0);
+        copy.restore(self);
+        copy
     }
 }
 

@@ -7,6 +7,7 @@ mod profile;
 use std::io::{Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
+use std::rc::Rc;
 
 use sprag_board_image::bench::TickCost;
 use sprag_board_image::image::Image;
@@ -56,7 +57,7 @@ fn armed(path: &Path) -> Result<Rig, String> {
 
 /// Has its block rock.
 fn rock(rig: &mut Rig) {
-    rig.structure = Box::new(swing(rig.bench.now()));
+    rig.structure = Rc::new(swing(rig.bench.now()));
     rig.ticks(200);
 }
 

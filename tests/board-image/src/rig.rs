@@ -1,6 +1,7 @@
 //! A board that is mounted on a structure, and a host at its link.
 
 use std::path::PathBuf;
+use std::rc::Rc;
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
 use sprag_shared::control::monitor::fault::Fault;
@@ -9,7 +10,7 @@ use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, Started, State, Ti
 use sprag_shared::settings::store::Store;
 use sprag_shared::settings::{Item, Settings};
 
-use crate::bench::{Bench, Stop, TickCost};
+use crate::bench::{self, Bench, Stop, TickCost};
 use crate::image::Image;
 use crate::model::Model;
 use crate::peripheral::flash::Flash;
@@ -90,7 +91,7 @@ pub struct Rig {
     /// The board.
     pub bench: Bench,
     /// The structure, at a time.
-    pub structure: Box<dyn Fn(u64) -> Whereabouts>,
+    pub structure: Rc<dyn Fn(u64) -> Whereabouts>,
     /// Of the block's and of the ground's sensor at rest, counts.
     pub gravity: f64,
     /// What the program has said about its starts.
@@ -101,6 +102,16 @@ pub struct Rig {
     pub costs: Vec<TickCost>,
     deframer: Deframer,
     replies: Vec<(u8, Reply)>,
+    tag: u8,
+    noise: Random,
+}
+
+/// A rig at one time, to come back to.
+pub struct Snapshot {
+    board: bench::Snapshot,
+    structure: Rc<dyn Fn(u64) -> Whereabouts>,
+    starts: Vec<Started>,
+    deframer: Deframer,
     tag: u8,
     noise: Random,
 }
@@ -118,7 +129,7 @@ impl Rig {
         }
         Rig {
             bench,
-            structure: Box::new(|_| Whereabouts::default()),
+            structure: Rc::new(|_| Whereabouts::default()),
             gravity: 4096.0,
             starts: Vec::new(),
             reports: Vec::new(),
@@ -127,6 +138,33 @@ impl Rig {
             replies: Vec::new(),
             tag: 0,
             noise: Random::new(42),
+        }
+    }
+
+    /// Board, structure and link as they are now.
+    pub fn snapshot(&self) -> Snapshot {
+        let Rig { bench, structure, starts, deframer, tag, noise, .. } = self;
+        let (structure, starts, deframer, noise) = (structure.clone(), starts.clone(), deframer.clone(), noise.clone());
+        Snapshot { board: bench.snapshot(), structure, starts, deframer, tag: *tag, noise }
+    }
+
+    /// As they were; of reports, answers and costs there are none yet.
+    pub fn restore(&mut self, then: &Snapshot) {
+        self.bench.restore(&then.board);
+        self.structure = then.structure.clone();
+        self.starts.clone_from(&then.starts);
+        (self.deframer, self.tag, self.noise) = (then.deframer.clone(), then.tag, then.noise.clone());
+        self.reports.clear();
+        self.replies.clear();
+        self.costs.clear();
+    }
+
+    /// Does the same with each case from here on, as if each had a board of its own that has come so far.
+    pub fn for_each<T>(mut self, cases: impl IntoIterator<Item = T>, mut work: impl FnMut(&mut Rig, T)) {
+        let here = self.snapshot();
+        for case in cases {
+            self.restore(&here);
+            work(&mut self, case);
         }
     }
 

@@ -32,7 +32,7 @@ impl Chip {
         if !self.rcc.clocks(base) {
             return 0;
         }
-        let [slow, _] = self.rcc.timer_hz();
+        let [slow, _] = self.timer_hz;
         match base {
             0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
             0x4000_0C00 => self.load_time(offset, slow),
@@ -72,7 +72,7 @@ impl Chip {
         if !self.rcc.clocks(base) {
             return;
         }
-        let [slow, fast] = self.rcc.peripheral_hz();
+        let [slow, fast] = self.peripheral_hz;
         match base {
             0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
             0x4000_0C00 => self.store_time(offset, value),
@@ -106,7 +106,7 @@ impl Chip {
             }
             0x4001_3400 => {
                 self.advance_coils();
-                let clock = self.rcc.timer_hz()[1];
+                let clock = self.timer_hz[1];
                 self.modulation.write(offset, value, clock, self.now);
             }
             0x4001_3800 => self.line.write(offset, value),

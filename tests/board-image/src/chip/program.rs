@@ -1,6 +1,6 @@
 //! The program on the chip: its blocks of instructions, its loads and stores, and the time that they take.
 
-use super::Chip;
+use super::{Chip, LENGTHS};
 use crate::engine::{Guest, Processor};
 use crate::model::Model;
 use crate::peripheral::processor::IDLE;
@@ -32,11 +32,13 @@ impl Chip {
 
     /// Instructions between `address` and `address + size`.
     fn length(&mut self, address: u32, size: u32) -> u64 {
-        if let Some(count) = self.lengths.get(&(address, size)) {
-            return (*count).into();
+        let place = (address >> 1) as usize % LENGTHS;
+        let (known, length, count) = self.lengths[place];
+        if (known, length) == (address, size) {
+            return count.into();
         }
         let count = self.instructions_of(address, size).count() as u32;
-        self.lengths.insert((address, size), count);
+        self.lengths[place] = (address, size, count);
         count.into()
     }
 

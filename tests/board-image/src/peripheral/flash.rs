@@ -68,7 +68,7 @@ pub enum Work {
 }
 
 /// Flash and controller.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Flash {
     model: Model,
     banks: g4::Banks,

@@ -71,16 +71,15 @@ fn a_stack_that_ends_releases_the_coils_and_is_reported() {
     const UNSTACKED: u32 = 1 << 12;
     const PRECISE: u32 = 1 << 9;
     let mut kinds = [0; 2];
-    for depth in (0..400).step_by(32) {
-        let mut rig = armed();
+    armed().for_each((0..400).step_by(32), |rig, depth| {
         rig.bench.deepen_stack(depth);
-        let (instructions, start) = fault(&mut rig);
+        let (instructions, start) = fault(rig);
         assert_eq!(start.cause, reset_cause::Cause::HardFault, "{depth} bytes left");
         let [status, hard, ..] = registers(&start);
         assert!(status & (UNSTACKED | PRECISE) != 0 && hard == 1 << 30, "{depth} bytes left: {status:#x} {hard:#x}");
         kinds[usize::from(status & PRECISE != 0)] += 1;
         assert!(instructions < 100, "{depth} bytes left: {instructions} instructions before the coils are off");
-    }
+    });
     println!("{} times at the entry of an interrupt, {} times in a function", kinds[0], kinds[1]);
     assert!(kinds.iter().all(|count| *count > 0), "{kinds:?}");
 }

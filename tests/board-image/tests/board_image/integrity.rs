@@ -143,23 +143,20 @@ fn testing_the_memory_changes_nothing() {
 fn a_bit_of_the_settings_that_turns_in_memory_is_a_fault_within_seconds() {
     for model in Model::ALL {
         let word = Settings::default().words()[usize::from(Item::Uplift.index())];
-        let places = |rig: &Rig| -> Vec<u32> {
-            (RAM + 0x8000..RAM + 0x1_0000).step_by(4).filter(|place| rig.bench.chip().ram.word(*place) == word).collect()
-        };
-        let count = places(&armed(model)).len();
+        let rig = armed(model);
+        let memory = RAM + 0x8000..RAM + 0x1_0000;
+        let places: Vec<u32> = memory.step_by(4).filter(|place| rig.bench.chip().ram.word(*place) == word).collect();
+        let count = places.len();
         assert!(count >= 4, "{model:?}: {count}");
-        let found: Vec<Option<Fault>> = (0..count)
-            .map(|which| {
-                let mut rig = armed(model);
-                let place = places(&rig)[which];
-                rig.bench.chip().ram.write(place, &(word ^ 1 << 5).to_le_bytes());
-                let state = rig.wait(5 * SECOND, |state| state.phase == Phase::Fault);
-                if state.fault.is_some() {
-                    stands_aside(&mut rig, &state, Fault::SettingsDamaged, &format!("{model:?}, {place:#x}"));
-                }
-                state.fault
-            })
-            .collect();
+        let mut found = Vec::new();
+        rig.for_each(places, |rig, place| {
+            rig.bench.chip().ram.write(place, &(word ^ 1 << 5).to_le_bytes());
+            let state = rig.wait(5 * SECOND, |state| state.phase == Phase::Fault);
+            if state.fault.is_some() {
+                stands_aside(rig, &state, Fault::SettingsDamaged, &format!("{model:?}, {place:#x}"));
+            }
+            found.push(state.fault);
+        });
         println!("{model:?}: {found:?}");
         assert_eq!(found.iter().flatten().count(), count - 2, "{model:?}: all but the draft and what is in flash: {found:?}");
     }

@@ -1,5 +1,7 @@
 //! The proof test of the coils in operation: each by itself while the board is armed, with an interval that makes it soon.
 
+use std::rc::Rc;
+
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::coil::{Coil, Switch};
 use sprag_board_image::rig::{Rig, image, image_for, swing};
@@ -85,27 +87,27 @@ fn coils_are_tried_one_by_one_while_the_board_is_armed() {
 /// At any part of a test the block begins to move: the law's command is driven at the next tick.
 #[test]
 fn the_first_sign_of_motion_ends_a_test_at_once() {
-    for later in (0..220).step_by(31) {
-        let mut rig = armed(Model::F405);
-        to_the_test(&mut rig);
+    let mut rig = armed(Model::F405);
+    to_the_test(&mut rig);
+    rig.for_each((0..220).step_by(31), |rig, later| {
         rig.ticks(later);
         rig.ask(&Request::Stream { every: 1 });
         let begun = rig.bench.now();
-        rig.structure = Box::new(swing(begun));
+        rig.structure = Rc::new(swing(begun));
         let mut moved = None;
         let ended = (0..200).find(|tick| {
             rig.ticks(1);
             // Three counts are more than a count at rest does.
             moved = moved.or(Some(*tick).filter(|_| swing(begun)(rig.bench.now()).travel.abs() > 2));
             let rocks = rig.reports.last().is_some_and(|report| report.decision.phase == Phase::Rocking);
-            moved.is_some() && (rocks || drives(&rig).iter().all(|(high, low)| *high && *low > 0.0))
+            moved.is_some() && (rocks || drives(rig).iter().all(|(high, low)| *high && *low > 0.0))
         });
         let (moved, ended) = (moved.expect("it moves"), ended.expect("it ends"));
         println!("{later} ticks into the test: moves at tick {moved}, driven by the law at tick {ended}");
         assert!(ended <= moved + 2, "{later}: {ended} ticks, {moved}");
         let state = rig.wait(200, |state| state.phase == Phase::Rocking);
         assert_eq!((state.phase, state.fault), (Phase::Rocking, None), "{later}");
-    }
+    });
 }
 
 /// A coil that fails while the board stands armed shows nothing until it is tried.

@@ -1,5 +1,7 @@
 //! What the board records of an earthquake in its flash, and what that costs its ticks.
 
+use std::rc::Rc;
+
 use super::resets::rocking;
 use sprag_board_image::bench::Stop;
 use sprag_board_image::model::Model;
@@ -55,7 +57,7 @@ fn armed(model: Model, bytes: u32) -> Rig {
 }
 
 fn rock(rig: &mut Rig, ticks: usize) {
-    rig.structure = Box::new(swing(rig.bench.now()));
+    rig.structure = Rc::new(swing(rig.bench.now()));
     rig.ticks(ticks);
 }
 
@@ -97,10 +99,9 @@ fn an_earthquake_is_recorded_and_no_tick_is_late() {
 fn a_power_cut_in_a_page_leaves_the_pages_before() {
     // Of an F4 by the word, of a G4 by the double word, after the erasing of each page.
     for (model, page, cuts) in [(Model::F405, 512, [1, 9, 301, 511]), (Model::G474, 257, [1, 6, 200, 256])] {
-        for cut in cuts {
-            let mut rig = armed(model, 0);
+        armed(model, 0).for_each(cuts, |rig, cut| {
             rig.bench.chip_mut().flash.cut_after = Some(page + cut - 1);
-            rig.structure = Box::new(swing(rig.bench.now()));
+            rig.structure = Rc::new(swing(rig.bench.now()));
             let stop = (0..4000).map(|_| rig.tick()).find(|stop| *stop != Stop::Tick);
             assert_eq!(stop, Some(Stop::Reset(Cause::Power)), "{model:?}: not cut at {cut}");
             let bytes = contents(&rig.bench.chip().flash, model);
@@ -108,16 +109,16 @@ fn a_power_cut_in_a_page_leaves_the_pages_before() {
             // The last word may be there in spite of the cut.
             assert!(before.len() == 1 || (cut + 2 > page && before.len() == 2), "{model:?}, cut at {cut}: {}", before.len());
             assert_eq!((before[0].header.number, before[0].moments().count()), (1, 251));
-            rig.structure = Box::new(|_| Default::default());
+            rig.structure = Rc::new(|_| Default::default());
             rig.boot();
             rig.wait(4000, |state| state.phase == Phase::Armed);
             // And the next earthquake is another one.
-            rock(&mut rig, 1000);
+            rock(rig, 1000);
             let bytes = contents(&rig.bench.chip().flash, model);
             let after = whole(&bytes);
             assert!(after[..before.len()] == before[..] && after.len() > before.len(), "{model:?}, cut at {cut}");
             assert_eq!((after[before.len()].header.number, after[before.len()].header.part), (2, 0), "{model:?}, cut at {cut}");
-        }
+        });
     }
 }
 

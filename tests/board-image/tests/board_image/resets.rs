@@ -1,5 +1,7 @@
 //! Resets while the block rocks.
 
+use std::rc::Rc;
+
 use sprag_board_image::image::Image;
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::rcc::Cause;
@@ -16,7 +18,7 @@ pub fn rocking(image: &Image, ticks: usize) -> Rig {
     let armed = rig.wait(4000, |state| state.phase == Phase::Armed);
     assert_eq!(armed.phase, Phase::Armed, "{:?}", armed.fault);
     let begin = rig.bench.now();
-    rig.structure = Box::new(swing(begin));
+    rig.structure = Rc::new(swing(begin));
     rig.ticks(ticks);
     let state = rig.state();
     assert_eq!((state.phase, state.fault), (Phase::Rocking, None));
@@ -44,12 +46,15 @@ fn back(rig: &mut Rig) -> (f64, f64) {
 #[test]
 fn a_reset_in_motion_is_resumed_from_within_50_ms() {
     for (model, phases) in [(Model::F405, 20), (Model::G474, 5)] {
-        let image = image_for(model);
+        let mut rig = rocking(&image_for(model), 600);
         let mut worst = (0.0_f64, 0.0_f64);
         for phase in 0..phases {
-            let (boot, time) = back(&mut rocking(&image, 600 + 2100 * phase / phases));
+            let before = rig.snapshot();
+            let (boot, time) = back(&mut rig);
             assert!(time < 50.0, "{model:?}, phase {phase}: {time} ms");
             worst = (worst.0.max(boot), worst.1.max(time));
+            rig.restore(&before);
+            rig.ticks(2100 / phases);
         }
         let (boot, time) = worst;
         println!(
@@ -71,4 +76,24 @@ fn a_tick_in_motion_costs_the_same_on_every_chip() {
         worst
     });
     assert!(second < first * 12 / 10, "{first} and {second} instructions");
+}
+
+/// A board that is brought back to a snapshot does what one does that went on, instruction by instruction.
+#[test]
+fn a_snapshot_goes_on_as_the_board_did() {
+    for model in Model::ALL {
+        let mut rig = rocking(&image_for(model), 600);
+        let before = rig.snapshot();
+        let mut goes_on = || {
+            rig.send(&Request::Stream { every: 1 });
+            rig.ticks(300);
+            let state = rig.state();
+            let done = (rig.costs.split_off(rig.costs.len() - 300), std::mem::take(&mut rig.reports), state, rig.bench.now());
+            rig.reset(Cause::Power);
+            rig.boot();
+            rig.restore(&before);
+            done
+        };
+        assert_eq!(goes_on(), goes_on(), "{model:?}");
+    }
 }

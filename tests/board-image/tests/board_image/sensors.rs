@@ -23,35 +23,31 @@ fn fault(rig: &mut Rig) -> u16 {
 
 #[test]
 fn a_wire_that_is_stuck_is_a_stale_sensor() {
-    for (bus, code) in [(0, 11), (1, 31)] {
-        for level in [false, true] {
-            let mut rig = armed();
-            rig.bench.chip_mut().buses[bus].wire = Wire::Stuck(level);
-            assert_eq!(fault(&mut rig), code, "bus {bus} stuck at {level}");
-        }
-    }
+    let cases = [(0, 11), (1, 31)].into_iter().flat_map(|(bus, code)| [false, true].map(|level| (bus, code, level)));
+    armed().for_each(cases, |rig, (bus, code, level)| {
+        rig.bench.chip_mut().buses[bus].wire = Wire::Stuck(level);
+        assert_eq!(fault(rig), code, "bus {bus} stuck at {level}");
+    });
 }
 
 #[test]
 fn a_sensor_that_loses_its_supply_is_configured_anew_and_trusted_again() {
-    for (bus, code) in [(0, 11), (1, 31)] {
-        let mut rig = armed();
+    armed().for_each([(0, 11), (1, 31)], |rig, (bus, code)| {
         let now = rig.bench.now();
         rig.bench.chip_mut().buses[bus].sensor.brown_out(now);
-        assert_eq!(fault(&mut rig), code, "bus {bus}");
+        assert_eq!(fault(rig), code, "bus {bus}");
         let state = rig.wait(16_000, |state| state.phase == Phase::Armed && state.fault.is_none());
         assert_eq!((state.phase, state.fault), (Phase::Armed, None), "bus {bus}");
-    }
+    });
 }
 
 #[test]
 fn a_converter_that_is_stuck_is_a_fault_of_a_clutch() {
-    for (counts, codes) in [(0, 53..=54), (4095, 58..=59)] {
-        let mut rig = armed();
+    armed().for_each([(0, 53..=54), (4095, 58..=59)], |rig, (counts, codes)| {
         rig.bench.chip_mut().converter.stuck = Some(counts);
-        let code = fault(&mut rig);
+        let code = fault(rig);
         assert!(codes.contains(&code), "stuck at {counts}: {code}");
-    }
+    });
 }
 
 /// Bits that flip, one in 10⁴: words are wrong now and then, but no sensor is given up, nothing is reset, and rest is found again. What the block's

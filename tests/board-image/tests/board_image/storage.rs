@@ -52,21 +52,20 @@ fn a_cut_at_any_operation_leaves_the_old_settings_or_the_new() {
 
 fn cut_at_every(model: Model, step: usize) {
     let image = image_for(model);
-    let mut rig = begun(&image);
-    let before = rig.bench.chip().flash.works.len();
-    assert!(store(&mut rig, None));
-    let operations = rig.bench.chip().flash.works.len() - before;
+    let mut whole = begun(&image);
+    let before = whole.bench.chip().flash.works.len();
+    assert!(store(&mut whole, None));
+    let operations = whole.bench.chip().flash.works.len() - before;
     let mut counts = [0; 2];
-    for cut in (0..operations).filter(|cut| cut % step == 0 || cut + 2 >= operations) {
-        let mut rig = begun(&image);
-        assert!(!store(&mut rig, Some(cut)), "{model:?}: not cut at {cut}");
+    begun(&image).for_each((0..operations).filter(|cut| cut % step == 0 || cut + 2 >= operations), |rig, cut| {
+        assert!(!store(rig, Some(cut)), "{model:?}: not cut at {cut}");
         let time = in_milliseconds(rig.boot());
         assert!(time < 20.0, "{model:?}: cut at {cut}: {time} ms");
         let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
         let which = [Settings::default().check(), others().check()].iter().position(|check| *check == identity.check);
         counts[which.unwrap_or_else(|| panic!("{model:?}: cut at {cut}: neither"))] += 1;
         assert!(rig.starts.last().is_some_and(|start| start.stored), "{model:?}: cut at {cut}: defaults");
-    }
+    });
     println!("{model:?}: {operations} operations: {} times the old settings, {} times the new", counts[0], counts[1]);
     assert!(operations > 100 && counts.iter().all(|count| *count > 0), "{counts:?} of {operations}");
 }

@@ -45,7 +45,7 @@ const PAGE: u32 = 2048;
 const COPY: u32 = 0x8000;
 
 /// What a G4 has beside what every flash has.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Banks {
     /// Check bits of bank 2.
     checks: Vec<u8>,
