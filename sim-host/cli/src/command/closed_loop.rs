@@ -14,6 +14,7 @@ use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
+use sprag_sim::closed_loop::decisions::DecisionReport;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
 use sprag_sim::closed_loop::run::Ending;
@@ -151,7 +152,8 @@ struct Specimen {
     seed: u64,
     outcome: Outcome,
     peak: f64,
-    ending: Ending,
+    decisions: DecisionReport,
+    faults: usize,
 }
 
 /// Runs the first `count` specimens with pair `index`; `done` hears of each.
@@ -169,8 +171,14 @@ fn specimens(
         let mut extremes = Extremes::default();
         let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut ());
         done();
-        let outcome = |ending: &Ending| Outcome::of(&ending.motion, &extremes.peaks);
-        ending.map(|ending| Specimen { seed, outcome: outcome(&ending), peak: extremes.peaks.rotation / alpha, ending })
+        let peak = extremes.peaks.rotation / alpha;
+        ending.map(|Ending { motion, decisions, faults, .. }| Specimen {
+            seed,
+            outcome: Outcome::of(&motion, &extremes.peaks),
+            peak,
+            decisions,
+            faults: faults.len(),
+        })
     };
     let runs: Vec<_> = pool.install(|| (0..count as u64).into_par_iter().map(one).collect());
     runs.into_iter().map(|run| run.map_err(|failure| failed(desk, index, failure))).collect()
@@ -217,9 +225,8 @@ fn monte_carlo(
     for (report, &index) in reports.iter_mut().zip(pairs) {
         let runs = specimens(pool, desk, index, count.get(), interrupt, || progress.step())?;
         let mut peaks = Vec::new();
-        for Specimen { seed, outcome, peak, ending } in runs {
+        for Specimen { seed, outcome, peak, decisions, faults } in runs {
             peaks.extend(Some(peak).filter(|_| !outcome.overturned()));
-            let decisions = &ending.decisions;
             table.row(vec![
                 report.summary.device.clone(),
                 seed.to_string(),
@@ -228,7 +235,7 @@ fn monte_carlo(
                 decisions.wrong_share.to_string(),
                 decisions.switches.to_string(),
                 decisions.chatter.to_string(),
-                ending.faults.len().to_string(),
+                faults.to_string(),
             ]);
         }
         report.summary.monte_carlo = Some(scatter(count, &peaks));
