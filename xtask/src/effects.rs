@@ -5,6 +5,7 @@
 //! the cost of a step without start and output.
 
 use crate::{
+    callgrind::instructions,
     firmware,
     process::{executables, output},
     stop::Stop,
@@ -212,7 +213,6 @@ pub fn run(root: &Path) -> Result<(), Stop> {
 /// # Errors
 /// If they differ by more than 1 %.
 pub fn off_costs_nothing(root: &Path) -> Result<String, Stop> {
-    tools::need_valgrind()?;
     let full = instructions_per_step(root, &sprag(root, &[])?, &[])?;
     let bare = instructions_per_step(root, &sprag(root, BARE)?, &[])?;
     let change = full / bare - 1.0;
@@ -254,16 +254,9 @@ fn added_steps(folder: &Path) -> Result<f64, Stop> {
 
 fn instructions_per_step(root: &Path, program: &Path, set: &[&str]) -> Result<f64, Stop> {
     let folder = root.join("target/effects");
-    std::fs::create_dir_all(&folder).map_err(|error| Stop::usage(format!("{}: {error}", folder.display())))?;
     let mut counts = [0.0; 2];
     for (count, step) in counts.iter_mut().zip(STEPS) {
-        let profile = folder.join("callgrind");
-        let mut run = Command::new("valgrind");
-        run.arg("--tool=callgrind").arg("--quiet").arg(format!("--callgrind-out-file={}", profile.display())).arg(program);
-        output(run.args(arguments(root, set, step, &folder)))?;
-        let text = std::fs::read_to_string(&profile).map_err(|error| Stop::usage(format!("{}: {error}", profile.display())))?;
-        let total = text.lines().rev().find_map(|line| line.strip_prefix("totals:").or_else(|| line.strip_prefix("summary:")));
-        *count = total.and_then(|total| total.trim().parse().ok()).ok_or_else(|| Stop::failed("callgrind counted nothing"))?;
+        *count = instructions(program, &arguments(root, set, step, &folder), &folder)?.values().sum::<u64>() as f64;
     }
     Ok((counts[1] - counts[0]) / added_steps(&folder)?)
 }

@@ -3,6 +3,7 @@
 mod accuracy;
 mod board_image;
 mod budget;
+mod callgrind;
 mod cluster;
 #[cfg(test)]
 mod documentation_links;
@@ -11,6 +12,7 @@ mod figures;
 mod firmware;
 mod fuzz;
 mod hardware;
+mod map_cost;
 mod package;
 mod panic_check;
 mod passed;
@@ -79,6 +81,8 @@ enum Task {
     /// Measure what each effect costs, on the host under callgrind and on the emulated board, and write docs/effects-cost.csv; fails if an
     /// effect that is off costs more than 1 %
     Effects,
+    /// Count where the time of an overturning map goes, under callgrind
+    MapCost,
     /// Measure what accuracy costs in time, on the host, in the emulator and against SciPy, and write docs/accuracy.md with its tables and
     /// pictures; needs python3 with venv
     Accuracy,
@@ -167,6 +171,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Flash { chip: Chip::F405 } => firmware::BOARD.flash(root, "STM32F405RGTx"),
         Task::Flash { chip: Chip::G474 } => firmware::BOARD_G474.flash(root, "STM32G474RETx"),
         Task::Effects => effects::run(root),
+        Task::MapCost => map_cost::run(root),
         Task::Accuracy => accuracy::run(root),
         Task::Ticks => ticks::run(root),
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
