@@ -133,6 +133,9 @@ class FlywheelLosses(Table):
     brake_deceleration_m_s2
         Deceleration by a brake on released flywheels; not of an inerter, an ideal or an overrunning clutch;
         from 0 to 1e+09; 0.0 by default.
+    drag_rate_1_s
+        Rate at which the drag of an open clutch, rigid or of plates with a delay, takes a flywheel to a
+        steady rack: e^(−rate t); from 0 to 1000; 0.0 by default.
 
     Raises
     ------
@@ -145,6 +148,7 @@ class FlywheelLosses(Table):
     viscous_rate_1_s: float | None = None
     dry_deceleration_m_s2: float | None = None
     brake_deceleration_m_s2: float | Literal["instant"] | None = None
+    drag_rate_1_s: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

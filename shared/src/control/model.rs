@@ -241,6 +241,7 @@ mod tests {
                 viscous_rate: 0.5,
                 dry_deceleration: 0.4,
                 brake_deceleration: 1.0,
+                drag_rate: 0.0,
             },
             ..Drivetrain::default()
         };

@@ -49,6 +49,10 @@ pub enum TransmissionKind {
     ViscousSingle,
     /// Clutches with viscous slip.
     Viscous,
+    /// Rigid clutches with drag while they are open.
+    DraggedRigid,
+    /// Friction clutches, likewise.
+    DraggedFriction,
 }
 
 /// Traits of a kind for the event loop ([`Transmission`]).
@@ -70,12 +74,10 @@ pub struct Traits {
     pub guards: usize,
 }
 
-/// `$then` for the transmission of `$kind` in its own type.
-macro_rules! each_transmission {
-    ($kind:expr, $transmission:ident => $then:expr) => {{
-        use crate::drivetrain::{
-            any_transmission::TransmissionKind, elastic, friction, ideal, load_friction, overrunning, rigid, viscous,
-        };
+/// `$then` for the transmission of `$kind` in its own type, or in the one that is given for it last.
+macro_rules! match_transmission {
+    ($kind:expr, $transmission:ident => $then:expr; $($($alias:ident)|+ => $type:expr,)+) => {{
+        use crate::drivetrain::{any_transmission::TransmissionKind, elastic, ideal, load_friction, overrunning, rigid};
         macro_rules! known {
             ($known:expr) => {{
                 let $transmission = &$known;
@@ -88,19 +90,40 @@ macro_rules! each_transmission {
             TransmissionKind::SingleWithFriction => known!(ideal::Single::<true>),
             TransmissionKind::Ideal => known!(ideal::IdealPair::<false>),
             TransmissionKind::IdealWithFriction => known!(ideal::IdealPair::<true>),
-            TransmissionKind::Rigid => known!(rigid::RigidPair),
             TransmissionKind::Overrunning => known!(overrunning::OverrunningPair),
-            TransmissionKind::Friction => known!(friction::FrictionPair),
             TransmissionKind::Elastic => known!(elastic::ElasticPair),
             TransmissionKind::LoadedSingle => known!(load_friction::Loaded(ideal::Single::<true>)),
             TransmissionKind::LoadedIdeal => known!(load_friction::Loaded(ideal::IdealPair::<true>)),
-            TransmissionKind::LoadedRigid => known!(load_friction::Loaded(rigid::RigidPair)),
-            TransmissionKind::ViscousSingle => known!(viscous::ViscousPair::<true>),
-            TransmissionKind::Viscous => known!(viscous::ViscousPair::<false>),
+            TransmissionKind::LoadedRigid => known!(load_friction::Loaded(rigid::RigidPair::<false>)),
+            $($(TransmissionKind::$alias)|+ => known!($type),)+
         }
     }};
 }
-pub(crate) use each_transmission;
+pub(crate) use match_transmission;
+
+/// `$then` for the transmission of `$kind` in its own type. At events a drag of zero changes nothing, so that clutches without share them.
+macro_rules! each_transmission {
+    ($kind:expr, $transmission:ident => $then:expr) => {
+        $crate::drivetrain::any_transmission::match_transmission!($kind, $transmission => $then;
+            ViscousSingle => $crate::drivetrain::viscous::ViscousPair::<true>,
+            Viscous => $crate::drivetrain::viscous::ViscousPair::<false>,
+            Rigid | DraggedRigid => $crate::drivetrain::rigid::RigidPair::<true>,
+            Friction | DraggedFriction => $crate::drivetrain::friction::FrictionPair::<true>,
+        )
+    };
+}
+
+/// The same for what flow and guards alone decide, as in steps: kinds with dashpots ([`super::dashpot`]) have them in common.
+macro_rules! each_flow {
+    ($kind:expr, $transmission:ident => $then:expr) => {
+        $crate::drivetrain::any_transmission::match_transmission!($kind, $transmission => $then;
+            Rigid => $crate::drivetrain::rigid::RigidPair::<false>,
+            Friction => $crate::drivetrain::friction::FrictionPair::<false>,
+            ViscousSingle | Viscous | DraggedRigid | DraggedFriction => $crate::drivetrain::viscous::ViscousPair::<false>,
+        )
+    };
+}
+pub(crate) use each_flow;
 
 /// `at` with the unknowns of one kind.
 fn of_kind<'a, S: Real, const X: usize>(at: &AnyPoint<'a, S, UNKNOWNS>) -> AnyPoint<'a, S, X> {
@@ -142,12 +165,12 @@ impl<S: Real> AnyTransmission<S> {
 
     /// [`Transmission::flow`], θ̈ alone.
     pub fn acceleration(&self, at: &AnyPoint<'_, S, UNKNOWNS>) -> S {
-        each_transmission!(self.kind, transmission => transmission.flow(&of_kind(at)).0)
+        each_flow!(self.kind, transmission => transmission.flow(&of_kind(at)).0)
     }
 
     /// [`Transmission::guard`].
     pub fn guard(&self, at: &AnyPoint<'_, S, UNKNOWNS>, acceleration: S, watch: Guard<S>) -> S {
-        each_transmission!(self.kind, transmission => transmission.guard(&of_kind(at), acceleration, watch))
+        each_flow!(self.kind, transmission => transmission.guard(&of_kind(at), acceleration, watch))
     }
 
     /// [`Transmission::engage`].

@@ -184,7 +184,7 @@ pub struct ModeCoefficients<S> {
     pub slip_growth: [S; 2],
     /// Stiffness of a clutch in contact, 1/s².
     pub stiffness: [S; 2],
-    /// Damping of a clutch in contact, or of viscous slip, 1/s.
+    /// Damping of a clutch in contact, of viscous slip, or of the drag of an open clutch, 1/s.
     pub damping: [S; 2],
     /// Twist at which a clutch in contact is without force.
     pub rest_twist: [S; 2],
@@ -216,7 +216,7 @@ pub enum Guard<S> {
     Play(S, usize),
     /// sign · (twist − contact): in contact.
     Contact(S, usize),
-    /// bound² − force² of a clutch in contact or of viscous slip, with the bound and its growth.
+    /// bound² − force² of a clutch in contact or of a dashpot, with the bound and its growth.
     Below(S, S, usize),
     /// friction² − θ̈² of a tilted block that friction holds, with the θ̈ that it would have without.
     Stuck(S),

@@ -2,6 +2,7 @@
 //! when the force of a locked flywheel reaches the capacity, stick when the plates run at one speed and can hold it.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
+use super::dashpot;
 use super::scaled_parameters::ScaledParameters;
 use super::transmission::{
     Account, AnyPoint, EventContext, PointOf, Transmission, acceleration, account, command, force_if_locked, locked_force,
@@ -11,8 +12,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
-/// Two flywheels, a friction clutch on each, that obey Eq. 10.
-pub struct FrictionPair;
+/// Two flywheels, a friction clutch on each, that obey Eq. 10; with `DRAG` while it is open.
+pub struct FrictionPair<const DRAG: bool>;
 
 /// Force of the plates that slip, on the rack; 1/s².
 #[inline(always)]
@@ -49,8 +50,8 @@ pub fn slip<S: Scalar, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>, si
 
 impl<S: Real> EventContext<'_, S> {
     /// Stick or slip where the plates run at one speed.
-    fn stick_or_slip(&mut self, wheel: usize) {
-        let force = force_if_locked(&FrictionPair, self, wheel);
+    fn stick_or_slip<const DRAG: bool>(&mut self, wheel: usize) {
+        let force = force_if_locked(&FrictionPair::<DRAG>, self, wheel);
         let rack = self.rack_speed();
         let clutch = &mut self.device.wheels[wheel];
         clutch.spin = rack;
@@ -62,10 +63,10 @@ impl<S: Real> EventContext<'_, S> {
     }
 
     /// Plates that touch at any speed of the flywheel.
-    fn meet(&mut self, wheel: usize) {
+    fn meet<const DRAG: bool>(&mut self, wheel: usize) {
         let slip = self.rack_speed() - self.device.wheels[wheel].spin;
         if slip == S::ZERO {
-            self.stick_or_slip(wheel);
+            self.stick_or_slip::<DRAG>(wheel);
         } else {
             self.slip(wheel, Sign::of(slip, Sign::Positive));
         }
@@ -78,30 +79,39 @@ impl<S: Real> EventContext<'_, S> {
     }
 }
 
-impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
+impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
     const COMMANDED: bool = true;
     const HOLDS: bool = true;
 
     fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
+        if DRAG {
+            parameters.add_dashpots(law, device);
+        }
         for (i, wheel) in device.wheels.iter().enumerate() {
-            law.watch[i + 1] = match wheel.coupling {
+            match wheel.coupling {
                 Coupling::Locked => {
                     let (capacity, growth) = parameters.capacity_of(wheel);
-                    Guard::Capacity(capacity, growth)
+                    law.watch[i + 1] = Guard::Capacity(capacity, growth);
                 }
-                Coupling::Slipping(sign) => Guard::Slip(sign.unit(), i),
-                _ => Guard::Nothing,
-            };
+                Coupling::Slipping(sign) => law.watch[i + 1] = Guard::Slip(sign.unit(), i),
+                _ => {}
+            }
         }
     }
 
     #[inline(always)]
     fn flow<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>) -> (V, [V; 2]) {
+        if DRAG {
+            return dashpot::flow(at);
+        }
         (acceleration(at, true, Some(plate_force(at))), spin_rates(at))
     }
 
     #[inline(always)]
     fn guard<V: Value<S>, B: Body<S>>(&self, at: &PointOf<'_, S, B, V, 2>, acceleration: V, watch: Guard<S>) -> V {
+        if DRAG {
+            return dashpot::guard(at, acceleration, watch);
+        }
         match watch {
             Guard::Command(sign) => command(at, true, sign),
             Guard::Capacity(capacity, growth) => below_capacity(at, locked_force(at, acceleration), (capacity, growth)),
@@ -112,7 +122,7 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
 
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         at.device.wheels[wheel].engaged_for = S::ZERO;
-        at.meet(wheel);
+        at.meet::<DRAG>(wheel);
     }
 
     fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
@@ -120,11 +130,11 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
             Guard::Slip(_, wheel) => {
                 let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
                 let both = at.device.wheels[other].coupling == Coupling::Locked;
-                at.stick_or_slip(wheel);
+                at.stick_or_slip::<DRAG>(wheel);
                 if both {
                     // What joins changes the force on what sticks already, and that the force on what joins.
-                    at.stick_or_slip(other);
-                    at.stick_or_slip(wheel);
+                    at.stick_or_slip::<DRAG>(other);
+                    at.stick_or_slip::<DRAG>(wheel);
                 }
             }
             Guard::Capacity(..) => {
@@ -137,11 +147,18 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
                     }
                 }
             }
-            _ => {}
+            _ => {
+                if DRAG {
+                    at.overcome_friction(watch);
+                }
+            }
         }
     }
 
     fn settle(&self, at: &mut EventContext<'_, S>) {
+        if DRAG {
+            at.settle_dashpots();
+        }
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
                 Coupling::Locked => {
@@ -151,7 +168,7 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
                         at.slip(wheel, Sign::of(force, Sign::Positive));
                     }
                 }
-                Coupling::Slipping(_) => at.meet(wheel),
+                Coupling::Slipping(_) => at.meet::<DRAG>(wheel),
                 _ => {}
             }
         }
@@ -177,6 +194,6 @@ impl<S: Real> Transmission<S, 2, 3> for FrictionPair {
                 account.spent.clutch = account.spent.clutch + account.force[i] * (rack - at.unknowns[i]);
             }
         }
-        account
+        if DRAG { dashpot::with_dashpots(account, at, device) } else { account }
     }
 }

@@ -6,6 +6,7 @@
 
 pub mod any_transmission;
 pub mod clutch_state;
+pub mod dashpot;
 pub mod elastic;
 pub mod friction;
 pub mod ideal;

@@ -51,6 +51,8 @@ pub struct ScaledParameters<S> {
     pub stiffness: S,
     /// Damping of an elastic clutch or of viscous slip, 1/s.
     pub damping: S,
+    /// Drag of an open clutch over the difference of the speeds, 1/s.
+    pub drag: S,
     /// Half the play over R.
     pub half_play: S,
 }
@@ -102,6 +104,7 @@ impl<S: Real> ScaledParameters<S> {
             time_constant,
             stiffness: S::of(stiffness),
             damping: S::of(damping),
+            drag: S::of(k * flywheel.drag_rate),
             half_play: S::of(half_play),
         }
     }
@@ -219,9 +222,20 @@ impl<S: Real> ScaledParameters<S> {
         (high < time).then_some(high)
     }
 
-    /// Viscous rate of a flywheel while the rack stands, 1/s: its bearings, and the slip of an engaged one.
+    /// Dashpot between rack and flywheel, its force over the difference of their speeds: of viscous slip, or the drag of an open clutch; 1/s.
+    pub fn dashpot(&self, wheel: &FlywheelState<S>) -> S {
+        match wheel.coupling {
+            Coupling::Open => self.drag,
+            Coupling::Viscous => self.damping,
+            Coupling::Locked | Coupling::Slipping(_) | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => {
+                S::ZERO
+            }
+        }
+    }
+
+    /// Viscous rate of a flywheel while the rack stands, 1/s: its bearings, and its dashpot.
     pub fn slowing_rate(&self, wheel: &FlywheelState<S>) -> S {
-        if wheel.coupling == Coupling::Viscous { self.bearing_rate + self.damping * self.mobility } else { self.bearing_rate }
+        self.bearing_rate + self.dashpot(wheel) * self.mobility
     }
 
     /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past

@@ -103,7 +103,7 @@ impl<'a, S: Real> EventContext<'a, S> {
         }
         wheel.coupling = Coupling::Open;
         wheel.twist = S::ZERO;
-        self.parameters.settle(wheel, S::ZERO);
+        self.parameters.settle(wheel, self.parameters.drag * (rack - wheel.spin));
     }
 }
 

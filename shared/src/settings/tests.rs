@@ -162,7 +162,7 @@ fn supervisions() -> [Parameters; 2] {
 }
 
 fn controller(structure: &Structure, estimator: Estimator, law: ClutchLaw, p: &Parameters) -> Controller {
-    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0, drag_rate: 0.0 };
     let drivetrain = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
     let delay = 5.324_236_549_240_234e-4;
     Controller {

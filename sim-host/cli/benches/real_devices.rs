@@ -138,7 +138,7 @@ fn drivetrain(case: Case) -> Drivetrain {
             Case::Rigid | Case::Vertical => Engagement::Rigid,
             Case::Capacity => Engagement::Friction { capacity_ratio: 0.3 },
         },
-        flywheel: FlywheelLosses { viscous_rate: 0.2, dry_deceleration: 0.05, brake_deceleration: 0.0 },
+        flywheel: FlywheelLosses { viscous_rate: 0.2, dry_deceleration: 0.05, brake_deceleration: 0.0, drag_rate: 0.0 },
         actuation: Actuation { engagement_delay: 0.02, release_delay: 0.01, ..Actuation::default() },
         ..Drivetrain::default()
     }

@@ -45,6 +45,7 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
         viscous_rate: input.number("viscous_rate")?,
         dry_deceleration: input.number("dry_deceleration")?,
         brake_deceleration: input.number("brake_deceleration")?,
+        drag_rate: 0.0,
     };
     let rack = Rack {
         guided_mass_ratio: input.number("guided_mass_ratio")?,

@@ -193,7 +193,7 @@ impl Effect {
 fn effects() -> Vec<Effect> {
     let rack = Rack { viscous: 0.05, dry_ratio: 0.004, ..Rack::default() };
     let guided = Rack { guided_mass_ratio: 0.05, ..Rack::default() };
-    let coasting = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
+    let coasting = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0, drag_rate: 0.0 };
     let braked = FlywheelLosses { brake_deceleration: 5.0, ..coasting };
     let late = Actuation {
         engagement_delay: 0.02,

@@ -47,7 +47,7 @@ fn motion(seed: u64) -> Samples {
 
 fn rigid(losses: (f64, f64, f64), actuation: Actuation) -> Drivetrain {
     let (viscous_rate, dry_deceleration, brake_deceleration) = losses;
-    let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration };
+    let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration, drag_rate: 0.0 };
     Drivetrain { engagement: Engagement::Rigid, flywheel, actuation, ..Drivetrain::default() }
 }
 

@@ -42,7 +42,7 @@ pub fn example_model() -> Model {
 
 /// With flywheels that spin down slowly.
 pub fn spinning_model() -> Model {
-    let flywheel = FlywheelLosses { viscous_rate: 0.4, dry_deceleration: 0.2, brake_deceleration: 0.0 };
+    let flywheel = FlywheelLosses { viscous_rate: 0.4, dry_deceleration: 0.2, brake_deceleration: 0.0, drag_rate: 0.0 };
     Model::new(&structure(), &Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() }).unwrap()
 }
 

@@ -1,7 +1,7 @@
 //! Mode output: dense output over one step with the unknowns and guards of a device.
 
 use super::HybridSystem;
-use crate::drivetrain::any_transmission::each_transmission;
+use crate::drivetrain::any_transmission::each_flow;
 use crate::drivetrain::clutch_state::{ModeCoefficients, UNKNOWNS};
 use crate::drivetrain::transmission::{EvaluationPoint, PointOf, Transmission};
 use crate::equation::Accelerations;
@@ -91,10 +91,10 @@ impl<S: Real> ModeStart<'_, S> {
         let kind = self.system.transmission.kind;
         match &self.system.body {
             AnyBody::Slender(body) => {
-                each_transmission!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_flow!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
             AnyBody::Full(body) => {
-                each_transmission!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
+                each_flow!(kind, transmission => next.with(&KnownModeStart { start: self, body, transmission }))
             }
         }
     }

@@ -67,7 +67,7 @@ impl Drivetrain {
         let Drivetrain { engagement, flywheel, rack, support, .. } = self;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
         let friction = friction || *support != Support::default();
-        let loaded = rack.load_friction != 0.0;
+        let (loaded, dragged) = (rack.load_friction != 0.0, flywheel.drag_rate != 0.0);
         match (kind, engagement) {
             (DeviceKind::None, _) => TransmissionKind::Alone,
             (DeviceKind::Inerter, Engagement::Ideal | Engagement::Rigid) if loaded => TransmissionKind::LoadedSingle,
@@ -78,6 +78,8 @@ impl Drivetrain {
             (DeviceKind::Inerter, _) => TransmissionKind::Single,
             (DeviceKind::ClutchedPair, Engagement::Ideal) if friction => TransmissionKind::IdealWithFriction,
             (DeviceKind::ClutchedPair, Engagement::Ideal) => TransmissionKind::Ideal,
+            (DeviceKind::ClutchedPair, Engagement::Rigid) if dragged => TransmissionKind::DraggedRigid,
+            (DeviceKind::ClutchedPair, Engagement::Friction { .. }) if dragged => TransmissionKind::DraggedFriction,
             (DeviceKind::ClutchedPair, Engagement::Rigid) => TransmissionKind::Rigid,
             (DeviceKind::ClutchedPair, Engagement::Overrunning) => TransmissionKind::Overrunning,
             (DeviceKind::ClutchedPair, Engagement::Friction { .. }) => TransmissionKind::Friction,

@@ -92,13 +92,13 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that observers integrate.
-    /// What viscous slip slows down, faster than all else moves, is shown in pieces.
+    /// What a dashpot slows down, faster than all else moves, is shown in pieces.
     pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
         let parameters = &self.transmission.parameters;
         let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
         let end = stops.fold(time, Real::smaller);
         let spins =
-            |wheel: &&FlywheelState<S>| wheel.coupling == Coupling::Viscous && wheel.spin.abs() > self.rest_speed * S::EPSILON;
+            |wheel: &&FlywheelState<S>| parameters.dashpot(wheel) > S::ZERO && wheel.spin.abs() > self.rest_speed * S::EPSILON;
         let slow = state.device.wheels.iter().filter(spins).map(|wheel| S::of(2.0) / parameters.slowing_rate(wheel));
         slow.fold(end, Real::smaller)
     }
@@ -128,15 +128,19 @@ impl<S: Real> HybridSystem<S> {
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
     pub(super) fn stands_until(&self, state: &mut HybridState<S>, time: S, duration: S) -> S {
-        if !self.actuator.controlled && self.transmission.permanent_link() != Coupling::Viscous {
+        let parameters = &self.transmission.parameters;
+        let pushed = self.transmission.slips_viscously() || parameters.drag > S::ZERO;
+        if !self.actuator.controlled && !pushed {
             return duration;
         }
         let mut stop = self.until_due(state, time, duration);
-        let pushes = |wheel: &&mut FlywheelState<S>| matches!(wheel.coupling, Coupling::Slipping(_) | Coupling::Viscous);
+        let pushes = |wheel: &&mut FlywheelState<S>| {
+            matches!(wheel.coupling, Coupling::Slipping(_)) || parameters.dashpot(wheel) > S::ZERO
+        };
         for wheel in state.device.wheels.iter_mut().filter(pushes) {
-            match self.transmission.parameters.stops_within(wheel, stop - time) {
+            match parameters.stops_within(wheel, stop - time) {
                 Some(stops) if time + stops > time => stop = time + stops,
-                Some(stops) => self.transmission.parameters.coast(wheel, stops),
+                Some(stops) => parameters.coast(wheel, stops),
                 None => {}
             }
         }

@@ -22,7 +22,7 @@ pub(super) struct Threshold<S> {
     growth: S,
     /// e, of a support of its own motion.
     support: S,
-    /// f, the push of flywheels through viscous slip, 1/s², and its rate r, 1/s.
+    /// f, the push of flywheels through dashpots, 1/s², and its rate r, 1/s.
     decay: (S, S),
 }
 
@@ -132,7 +132,8 @@ impl<S: Real> HybridSystem<S> {
             push = push - parameters.support_push;
             support = support + parameters.relative_push;
         }
-        let pulls = |wheel: &FlywheelState<S>| wheel.coupling.is_engaged() && !sticks(wheel);
+        let dragged = |wheel: &FlywheelState<S>| parameters.dashpot(wheel) > S::ZERO;
+        let pulls = |wheel: &FlywheelState<S>| (wheel.coupling.is_engaged() || dragged(wheel)) && !sticks(wheel);
         if wheels.iter().any(pulls) {
             let law = self.law(state);
             let point = self.point(&law, side, &Place { velocity: S::ZERO, ..self.place(state) });
@@ -140,12 +141,12 @@ impl<S: Real> HybridSystem<S> {
             for (i, _) in wheels.iter().enumerate().filter(|(_, wheel)| pulls(wheel)) {
                 force = add(force, (account.force[i], law.slip_growth[i]));
             }
-            // A flywheel that slips viscously slows down as (w + d/r) e^(−r t) − d/r while the rack stands.
-            for wheel in wheels.iter().filter(|wheel| wheel.coupling == Coupling::Viscous) {
+            // A flywheel behind a dashpot slows down as (w + d/r) e^(−r t) − d/r while the rack stands.
+            for wheel in wheels.iter().filter(|wheel| dragged(wheel)) {
                 rate = parameters.slowing_rate(wheel);
                 let steady = Sign::of(wheel.spin, Sign::Positive).times(parameters.dry_of(wheel) / rate);
                 if wheel.spin != S::ZERO {
-                    decaying = decaying + parameters.damping * (wheel.spin + steady);
+                    decaying = decaying + parameters.dashpot(wheel) * (wheel.spin + steady);
                 }
             }
         }

@@ -76,14 +76,19 @@ pub struct Steps {
 }
 
 impl HybridBlock<'_> {
-    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, a support that moves with the ground, clutches that no controller commands.
+    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, a support that moves with the ground, open clutches
+    /// without drag that no controller commands.
     pub fn knows(system: &HybridSystem<f64>) -> bool {
         let consistent = match system.body {
             AnyBody::Slender(_) => true,
             AnyBody::Full(body) => body.consistent || system.transmission.kind == TransmissionKind::Alone,
         };
         let parameters = &system.transmission.parameters;
-        consistent && parameters.rack_push == 0.0 && !parameters.support_moves() && !system.actuator.controlled
+        consistent
+            && parameters.rack_push == 0.0
+            && !parameters.support_moves()
+            && parameters.drag == 0.0
+            && !system.actuator.controlled
     }
 
     /// Whether lanes may take it.

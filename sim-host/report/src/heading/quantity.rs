@@ -22,7 +22,7 @@ const fn quantity(key: &'static str, name: &'static str, symbol: &'static str, u
 }
 
 /// Section by section, as in docs/scenes.md; `[controller]` and its sensors go by the words of their keys.
-const QUANTITIES: [Quantity; 79] = [
+const QUANTITIES: [Quantity; 80] = [
     quantity("block.size_m", "size", "*R*", "m"),
     quantity("block.frequency_parameter_1_s", "frequency parameter", "*p*", "1/s"),
     quantity("block.slenderness_deg", "slenderness", "α", "°"),
@@ -46,6 +46,7 @@ const QUANTITIES: [Quantity; 79] = [
     quantity("device.N.flywheel.viscous_rate_1_s", "viscous rate of the flywheels", "", "1/s"),
     quantity("device.N.flywheel.dry_deceleration_m_s2", "dry deceleration of the flywheels", "", "m/s²"),
     quantity("device.N.flywheel.brake_deceleration_m_s2", "brake deceleration", "", "m/s²"),
+    quantity("device.N.flywheel.drag_rate_1_s", "drag rate of open clutches", "", "1/s"),
     quantity("device.N.clutch.capacity_ratio", "clutch capacity", "*F*/(*mg*)", ""),
     quantity("device.N.clutch.capacity_n", "clutch capacity", "*F*", "N"),
     quantity("device.N.clutch.stiffness_ratio", "clutch stiffness", "*K*/(*mp*²)", ""),

@@ -33,7 +33,7 @@ fn rocker(geometry: Geometry, engagement: Engagement) -> Rocker {
         base: Base::Rigid,
         rest_speed: REST_SPEED,
     };
-    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0 };
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0, drag_rate: 0.0 };
     let drivetrain = match engagement {
         Engagement::Ideal => Drivetrain::default(),
         engagement => Drivetrain { engagement, flywheel, ..Drivetrain::default() },

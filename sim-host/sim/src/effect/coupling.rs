@@ -83,13 +83,17 @@ pub const ACTUATION: Effect = Effect {
 /// What slows flywheels down.
 pub const FLYWHEEL: Effect = Effect {
     name: "flywheel",
-    summary: "bearing friction of the flywheels, and a brake on released ones",
-    equation: &["ẇ = F/m_r − c w − (d + b) sgn w,  w the speed of a rack that moves with it; b only while released"],
-    source: "Newton's law of a flywheel with viscous and Coulomb friction; the paper asks for a means to slow it down (Eq. 10)",
+    summary: "bearing friction of the flywheels, a brake on released ones, and the drag of open clutches",
+    equation: &[
+        "ẇ = F/m_r − c w − (d + b) sgn w,  w the speed of a rack that moves with it; b only while released",
+        "F = c_d m_r (ẋ − w) while released, by the drag of the open clutch",
+    ],
+    source: "Newton's law with viscous and Coulomb friction; the paper asks for a means to slow it down (Eq. 10); drag torques of data sheets",
     keys: &[
         "device.N.flywheel.viscous_rate_1_s",
         "device.N.flywheel.dry_deceleration_m_s2",
         "device.N.flywheel.brake_deceleration_m_s2",
+        "device.N.flywheel.drag_rate_1_s",
     ],
     is_on: |scene, index| scene.devices[index].drivetrain.flywheel != FlywheelLosses::default(),
 };

@@ -61,6 +61,7 @@ fn forces(subject: &Subject<'_>) -> String {
     match (subject.device.device.kind, drivetrain.engagement) {
         (DeviceKind::Inerter, Engagement::Viscous { .. }) => sum.push("F₁"),
         (_, Engagement::Friction { .. } | Engagement::Elastic { .. } | Engagement::Viscous { .. }) => sum.push("F₁ + F₂"),
+        (_, Engagement::Rigid) if drivetrain.flywheel.drag_rate != 0.0 => sum.push("F₁ + F₂"),
         (_, Engagement::Ideal | Engagement::Rigid | Engagement::Overrunning) => {}
     }
     if has_bearing(&drivetrain.flywheel) && locked(subject).is_some() {
@@ -103,6 +104,12 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
     if subject.device.device.kind == DeviceKind::ClutchedPair {
         match drivetrain.engagement {
             Engagement::Ideal => lines.push("κ = 1 while a flywheel is engaged, else 0".to_owned()),
+            Engagement::Rigid if drivetrain.flywheel.drag_rate != 0.0 => {
+                lines.push("κ: how many flywheels are locked to the rack;  Fᵢ: of open clutches".to_owned());
+            }
+            Engagement::Friction { .. } if drivetrain.flywheel.drag_rate != 0.0 => {
+                lines.push("κ: how many flywheels stick to the rack;  Fᵢ: of slipping plates and of open clutches".to_owned());
+            }
             Engagement::Rigid | Engagement::Overrunning => lines.push("κ: how many flywheels are locked to the rack".to_owned()),
             Engagement::Friction { .. } => {
                 lines.push("κ: how many flywheels stick to the rack;  Fᵢ: of slipping plates".to_owned())

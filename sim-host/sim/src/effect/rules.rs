@@ -52,6 +52,12 @@ pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
         lines.push(format!("c = {} 1/s,  d = {} m/s²", number(losses.viscous_rate), number(losses.dry_deceleration)));
     }
     lines.extend(clutch(subject));
+    if losses.drag_rate != 0.0 {
+        lines.push(format!(
+            "drag of open clutches: Fᵢ = c_d m_r (R ℓ θ̇ − wᵢ) while released,  c_d = {} 1/s",
+            number(losses.drag_rate)
+        ));
+    }
     lines
 }
 

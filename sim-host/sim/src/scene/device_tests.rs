@@ -110,12 +110,18 @@ fn engagements_and_losses_are_the_drivetrains() {
     assert_eq!(device(2, "engagement=rigid").drivetrain.engagement, Engagement::Rigid);
     assert_eq!(device(2, "engagement=overrunning").drivetrain.engagement, Engagement::Overrunning);
     let losses = device(1, "flywheel={ viscous_rate_1_s = 0.5, dry_deceleration_m_s2 = 0.2 }").drivetrain.flywheel;
-    assert_eq!(losses, FlywheelLosses { viscous_rate: 0.5, dry_deceleration: 0.2, brake_deceleration: 0.0 });
+    assert_eq!(losses, FlywheelLosses { viscous_rate: 0.5, dry_deceleration: 0.2, brake_deceleration: 0.0, drag_rate: 0.0 });
     let rigid = |brake: &str| {
         let brake = format!("device.2.flywheel.brake_deceleration_m_s2={brake}");
         parsed(&["device.2.engagement=rigid", &brake]).unwrap().devices[2].drivetrain.flywheel.brake_deceleration
     };
     assert_eq!((rigid("3.5"), rigid("instant")), (3.5, f64::INFINITY));
+    let late = "device.2.actuation={ engagement_delay_s = 0.02 }";
+    for clutch in ["engagement=\"rigid\"", "clutch={ capacity_ratio = 0.1 }"] {
+        let items =
+            [late, &format!("device.2.{clutch}"), "device.2.flywheel={ drag_rate_1_s = 0.2, brake_deceleration_m_s2 = 5 }"];
+        assert_eq!(parsed(&items).unwrap().devices[2].drivetrain.flywheel.drag_rate, 0.2);
+    }
 }
 
 #[test]
@@ -245,6 +251,16 @@ fn contradictory_effects_are_refused_with_the_reason() {
         let items = [&format!("device.2.{engagement}"), "device.2.actuation.time_constant_s=0.1"];
         refused(&items, &["device.2.actuation.time_constant_s", "only a capacity can rise"]);
     }
+    let (drag, rigid) = ("device.2.flywheel.drag_rate_1_s=0.1", "device.2.engagement=rigid");
+    refused(&["device.1.flywheel.drag_rate_1_s=0.1"], &["device.1.flywheel.drag_rate_1_s", "a single inerter has none"]);
+    for other in ["engagement=ideal", "engagement=overrunning", "clutch.stiffness_ratio=10", "inertance_corner_hz=4"] {
+        refused(&[drag, &format!("device.2.{other}")], &["device.2.flywheel.drag_rate_1_s", "a rigid one and for plates"]);
+    }
+    refused(&[drag, "device.2.clutch.capacity_ratio=0.1"], &["device.2.flywheel.drag_rate_1_s", "engagement_delay_s"]);
+    let stopped = "device.2.flywheel={ drag_rate_1_s = 0.1, brake_deceleration_m_s2 = \"instant\" }";
+    refused(&[rigid, stopped], &["device.2.flywheel.drag_rate_1_s", "stopped at once"]);
+    refused(&[rigid, drag, "device.2.rack.load_friction=0.1"], &["device.2.flywheel.drag_rate_1_s", "rack.load_friction"]);
+    refused(&[rigid, "device.2.flywheel.drag_rate_1_s=1001"], &["device.2.flywheel.drag_rate_1_s is 1001", "to 1000 1/s"]);
     let load = "device.2.rack={ load_friction = 0.1 }";
     for other in ["engagement=overrunning", "clutch.capacity_ratio=0.1", "clutch.stiffness_ratio=10", "inertance_corner_hz=4"] {
         refused(&[load, &format!("device.2.{other}")], &["device.2.rack.load_friction", "locked to the rack"]);

@@ -41,6 +41,10 @@ pub struct FlywheelLossesTable {
     /// Deceleration by a brake on released flywheels; not of an inerter, an ideal or an overrunning clutch.
     #[serde(default)]
     pub brake_deceleration_m_s2: BrakeValue,
+    /// Rate at which the drag of an open clutch, rigid or of plates with a delay, takes a flywheel to a steady rack: e^(−rate t).
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub drag_rate_1_s: f64,
 }
 
 /// A number or a word.
@@ -230,8 +234,8 @@ impl DeviceTable {
             (None, EngagementName::Rigid) => Engagement::Rigid,
             (None, EngagementName::Overrunning) => Engagement::Overrunning,
         };
-        let flywheel = self.flywheel_losses(engagement, key)?;
         let actuation = self.actuation(engagement, key)?;
+        let flywheel = self.flywheel_losses(engagement, &actuation, key)?;
         let rack = match &self.rack {
             Some(rack) => rack.resolve(engagement, block_mass, key)?,
             None => Rack::default(),
@@ -284,7 +288,12 @@ impl DeviceTable {
         Ok(Engagement::Viscous { corner_frequency: self.inertance_corner_hz.unwrap_or_default() })
     }
 
-    fn flywheel_losses(&self, engagement: Engagement, key: &KeyOf<'_>) -> Result<FlywheelLosses, SceneError> {
+    fn flywheel_losses(
+        &self,
+        engagement: Engagement,
+        actuation: &Actuation,
+        key: &KeyOf<'_>,
+    ) -> Result<FlywheelLosses, SceneError> {
         let Some(table) = &self.flywheel else {
             return Ok(FlywheelLosses::default());
         };
@@ -300,10 +309,36 @@ impl DeviceTable {
                 return Err(key(name).conflict(reason));
             }
         }
+        let drag_rate = table.drag_rate_1_s;
+        if drag_rate != 0.0 {
+            let name = "flywheel.drag_rate_1_s";
+            if self.kind == Kind::Inerter {
+                return Err(key(name).conflict("an open clutch drags, and a single inerter has none"));
+            }
+            if !matches!(engagement, Engagement::Rigid | Engagement::Friction { .. }) {
+                let reason = "the drag of an open clutch is known for a rigid one and for plates: give engagement = \"rigid\" or \
+                              clutch.capacity_ratio without a stiffness";
+                return Err(key(name).conflict(reason));
+            }
+            let late = actuation.engagement_delay > 0.0 || actuation.release_delay > 0.0;
+            if engagement != Engagement::Rigid && !late {
+                let reason = "plates that drag need actuation.engagement_delay_s or release_delay_s: without either Eq. 10 would engage and \
+                              release them at one instant of a turn, over and over";
+                return Err(key(name).conflict(reason));
+            }
+            if brake_deceleration.is_infinite() {
+                let reason = "no drag moves a flywheel that is stopped at once: give brake_deceleration_m_s2 a number";
+                return Err(key(name).conflict(reason));
+            }
+            if self.rack.as_ref().is_some_and(|rack| rack.load_friction.unwrap_or_default() != 0.0) {
+                return Err(key(name).conflict("the drag of an open clutch is not known beside rack.load_friction"));
+            }
+        }
         Ok(FlywheelLosses {
             viscous_rate: table.viscous_rate_1_s,
             dry_deceleration: table.dry_deceleration_m_s2,
             brake_deceleration,
+            drag_rate,
         })
     }
 
@@ -369,6 +404,7 @@ impl DeviceTable {
             "viscous_rate" => "flywheel.viscous_rate_1_s".to_owned(),
             "dry_deceleration" => "flywheel.dry_deceleration_m_s2".to_owned(),
             "brake_deceleration" => "flywheel.brake_deceleration_m_s2".to_owned(),
+            "drag_rate" => "flywheel.drag_rate_1_s".to_owned(),
             "miss_probability" => "actuation.miss_probability".to_owned(),
             "support_amplification" => parameter.to_owned(),
             "support_motion" => self.support_key().unwrap_or(parameter).to_owned(),

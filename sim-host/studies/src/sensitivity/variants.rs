@@ -57,7 +57,7 @@ const fn variant(effect: &'static str, name: &'static str, kinds: &'static [Kind
 ///   poor sensor.
 /// - Weight: a flywheel of 0.02 of the block's mass and seven times its pinion's radius has a mass ratio of 0.5; the rack has
 ///   half of that mass.
-pub const VARIANTS: [Variant; 32] = [
+pub const VARIANTS: [Variant; 33] = [
     variant("geometry", "slender", EVERY, &["block.geometry=slender"]),
     Variant { vertical: true, ..variant("vertical", "vertical ground motion", EVERY, &[]) },
     variant("impact", "geometric restitution", EVERY, &["block.restitution=geometric"]),
@@ -172,6 +172,17 @@ pub const VARIANTS: [Variant; 32] = [
         "bearings 0.05 m/s², 0.05 1/s",
         INERTERS,
         &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
+    ),
+    // Wet plates drag with a few per cent of their capacity at the rated speed: 0.1 1/s is 2 % of this one at 0.4 m/s, for σ = 0.5.
+    variant(
+        "flywheel",
+        "plates drag 0.1 1/s, brake 10 m/s², delays 20 ms",
+        PAIR,
+        &[
+            "device.N.clutch={ capacity_ratio = 0.1 }",
+            "device.N.flywheel={ brake_deceleration_m_s2 = 10, drag_rate_1_s = 0.1 }",
+            "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
+        ],
     ),
     Variant {
         of_pair: &[

@@ -7,7 +7,7 @@ use sprag_shared::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
 pub fn drivetrains() -> [Drivetrain; 10] {
-    let flywheel = FlywheelLosses { viscous_rate: 0.0625, dry_deceleration: 0.25, brake_deceleration: 5.0 };
+    let flywheel = FlywheelLosses { viscous_rate: 0.0625, dry_deceleration: 0.25, brake_deceleration: 5.0, drag_rate: 0.0 };
     let coasting = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.03125, viscous: 0.0625, dry_ratio: 0.00390625, load_friction: 0.0 };
     let of = |engagement, flywheel| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };

@@ -37,7 +37,8 @@ const MASS_RATIO: f64 = 0.5;
 const RACK: Rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004, load_friction: 0.0 };
 
 /// Bearings with friction.
-const BEARINGS: FlywheelLosses = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0 };
+const BEARINGS: FlywheelLosses =
+    FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 0.0, drag_rate: 0.0 };
 
 /// And a brake.
 const BRAKED: FlywheelLosses = FlywheelLosses { brake_deceleration: 5.0, ..BEARINGS };
@@ -60,7 +61,8 @@ const IDEAL: Drivetrain = Drivetrain {
     actuation: PROMPT,
     support: Support { amplification: 1.0, own_motion: false },
 };
-const NO_LOSSES: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0 };
+const NO_LOSSES: FlywheelLosses =
+    FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0, drag_rate: 0.0 };
 const NO_RACK: Rack = Rack { guided_mass_ratio: 0.0, viscous: 0.0, dry_ratio: 0.0, load_friction: 0.0 };
 const PROMPT: Actuation = Actuation {
     engagement_delay: 0.0,

@@ -9,7 +9,8 @@ use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 
-const INSTANT: FlywheelLosses = FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: f64::INFINITY };
+const INSTANT: FlywheelLosses =
+    FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: f64::INFINITY, drag_rate: 0.0 };
 
 fn of(engagement: Engagement, flywheel: FlywheelLosses) -> Drivetrain {
     Drivetrain { engagement, flywheel, ..Drivetrain::default() }

@@ -2,6 +2,7 @@
 
 mod actuation;
 mod demands;
+mod drag;
 mod energy;
 mod ground;
 mod limits;
@@ -222,8 +223,8 @@ impl Shake {
 }
 
 /// Every kind of drivetrain, with losses where they belong.
-pub fn drivetrains() -> [(&'static str, Drivetrain); 12] {
-    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+pub fn drivetrains() -> [(&'static str, Drivetrain); 14] {
+    let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0, drag_rate: 0.0 };
     let bearings = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.02, viscous: 0.05, dry_ratio: 0.004, ..Rack::default() };
     let guided = Rack { guided_mass_ratio: 0.02, ..Rack::default() };
@@ -254,6 +255,14 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 12] {
         ("ideal with load friction", of(Engagement::Ideal, bearings, Rack { load_friction: 0.1, ..rack })),
         ("rigid with load friction", of(Engagement::Rigid, flywheel, Rack { load_friction: 0.1, ..rack })),
         ("viscous slip", of(Engagement::Viscous { corner_frequency: 3.0 }, flywheel, rack)),
+        ("rigid with drag", of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.4, ..flywheel }, rack)),
+        (
+            "friction clutch with drag",
+            Drivetrain {
+                actuation: Actuation { engagement_delay: 0.02, ..Actuation::default() },
+                ..of(Engagement::Friction { capacity_ratio: 0.03 }, FlywheelLosses { drag_rate: 1.0, ..bearings }, rack)
+            },
+        ),
         ("ideal on a moving support", Drivetrain { support: Support::amplified(1.3), rack: guided, ..Drivetrain::default() }),
     ]
 }

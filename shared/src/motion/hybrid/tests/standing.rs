@@ -114,7 +114,8 @@ fn the_least_bearing_friction_is_none() {
     let shake = pair(Geometry::Slender, 1.7, 2.2);
     let peak = |dry_deceleration: f64| {
         let mut drivetrain = plates(0.08, 0.05);
-        drivetrain.flywheel = FlywheelLosses { dry_deceleration, brake_deceleration: f64::INFINITY, viscous_rate: 0.0 };
+        drivetrain.flywheel =
+            FlywheelLosses { dry_deceleration, brake_deceleration: f64::INFINITY, viscous_rate: 0.0, drag_rate: 0.0 };
         shake.machine(&drivetrain, &tight()).peak
     };
     let (none, least) = (peak(0.0), peak(1e-9));

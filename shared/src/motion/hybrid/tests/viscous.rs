@@ -143,7 +143,7 @@ fn a_flywheel_pushes_a_standing_block_as_long_as_it_turns() {
         let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), SIGMA / block.inertia_ratio());
         let (corner, dry) = (6.0, dry_deceleration / block.size());
         let rate = corner + viscous_rate;
-        let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration: 0.0 };
+        let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration: 0.0, drag_rate: 0.0 };
         let machine: HybridSystem<f64> = Drivetrain { flywheel, ..slip(corner) }.resolve(&structure, false).unwrap();
         let mut state = machine.at_rest();
         assert_eq!(state.device.wheels[0].coupling, Coupling::Viscous);

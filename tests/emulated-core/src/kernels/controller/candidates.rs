@@ -149,7 +149,7 @@ impl Candidate {
     /// # Errors
     /// The errors of [`Candidate::controller`].
     pub fn consistent(&self) -> Result<Controller, fmt::Error> {
-        let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0 };
+        let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.3, brake_deceleration: 5.0, drag_rate: 0.0 };
         let rigid = Drivetrain { engagement: Engagement::Rigid, flywheel, ..Drivetrain::default() };
         self.controller(KinematicsKind::Consistent, &rigid).map_err(|_| fmt::Error)
     }
