@@ -94,6 +94,15 @@ const ROWS: &[Row] = &[
         base: "clutched pair",
         kernel: "machine-rigid",
     },
+    Row {
+        name: "flywheel, drag",
+        set: &[
+            "PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0,\
+             drag_rate_1_s=0.1}}",
+        ],
+        base: "flywheel",
+        kernel: "machine-drag",
+    },
     Row { name: "engagement", set: &["PAIR,engagement=\"overrunning\"}"], base: "clutched pair", kernel: "machine-overrunning" },
     Row { name: "clutch", set: &["PAIR,clutch={capacity_ratio=0.1}}"], base: "clutched pair", kernel: "machine-friction-clutch" },
     Row {

@@ -26,7 +26,7 @@ pub(super) fn encode(drivetrain: &Drivetrain, out: &mut Writer<'_>) -> Result<()
     out.word(miss_seed as u32)?;
     out.word((miss_seed >> 32) as u32)?;
     out.word(u32::from(delay == Delay::Transport))?;
-    out.numbers(&[support.amplification, time_constant, rack.load_friction])
+    out.numbers(&[support.amplification, time_constant, rack.load_friction, flywheel.drag_rate])
 }
 
 pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
@@ -67,5 +67,6 @@ pub(super) fn decode(input: &mut Reader<'_>) -> Result<Drivetrain, CaseError> {
     let support = Support::amplified(input.number("support_amplification")?);
     let time_constant = input.number("time_constant")?;
     let rack = Rack { load_friction: input.number("load_friction")?, ..rack };
+    let flywheel = FlywheelLosses { drag_rate: input.number("drag_rate")?, ..flywheel };
     Ok(Drivetrain { engagement, flywheel, rack, actuation: Actuation { delay, time_constant, ..actuation }, support })
 }

@@ -1,4 +1,4 @@
-//! The words of a case, in order: 51 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
+//! The words of a case, in order: 52 for the scene, then its ground motion. Numbers are the bits of an f32 in SI units;
 //! kinds count from 0 in the order in which their types list them. What a kind does not need is written as 0 and not looked
 //! at.
 //!
@@ -14,13 +14,13 @@
 //! | 25-29 | actuation: engagement delay, release delay, rise time, dwell, miss probability |
 //! | 30, 31 | its miss seed, lower and upper half |
 //! | 32 | its delay (kind) |
-//! | 33-35 | support: amplification; actuation: time constant; rack: load friction |
-//! | 36-38 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
-//! | 39-41 | its scatter: deviation, and seed, lower and upper half |
-//! | 42-44 | initially (0 rest, 1 released), θ, θ̇ |
-//! | 45-47 | method (kind), step, free time |
-//! | 48-50 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
-//! | 51- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
+//! | 33-36 | support: amplification; actuation: time constant; rack: load friction; flywheels: drag rate |
+//! | 37-39 | restitution (0 given, 1 geometric, 2 momentum balance), η, rest speed |
+//! | 40-42 | its scatter: deviation, and seed, lower and upper half |
+//! | 43-45 | initially (0 rest, 1 released), θ, θ̇ |
+//! | 46-48 | method (kind), step, free time |
+//! | 49-51 | ground (0 pieces, 1 record); number of pieces or of samples; vertical motion (0 none, 1 there) |
+//! | 52- | pieces: 11 words each, shape (kind), duration, and nine numbers of the shape; record: interval, samples |
 //! | then | the vertical motion: 10 words for each piece, shape and nine numbers; or as many samples |
 
 use crate::codec::{Reader, Writer};
@@ -36,7 +36,7 @@ use sprag_shared::structure::{Base, RestitutionScatter, Structure};
 pub const MAGIC: u32 = u32::from_le_bytes(*b"CASE");
 
 /// Of the words' meaning.
-pub const VERSION: u32 = 8;
+pub const VERSION: u32 = 9;
 
 impl<'a> Case<'a> {
     /// Writes the case to the front of `words` and gives the number of words. Numbers are rounded to single precision.

@@ -233,6 +233,14 @@ fn effects() -> Vec<Effect> {
             Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
         ),
         Effect::of("viscous slip", of(Engagement::Viscous { corner_frequency: 4.0 }, braked)),
+        Effect::of("drag of rigid clutches", of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.5, ..coasting })),
+        Effect::of(
+            "drag of friction clutches",
+            Drivetrain {
+                actuation: Actuation { engagement_delay: 0.02, ..Actuation::default() },
+                ..of(Engagement::Friction { capacity_ratio: 0.03 }, FlywheelLosses { drag_rate: 0.5, ..coasting })
+            },
+        ),
         Effect::of("load friction", Drivetrain { rack: Rack { load_friction: 0.1, ..rack }, ..of(Engagement::Ideal, coasting) }),
         Effect::of(
             "load friction of a rigid clutch",
@@ -331,5 +339,5 @@ fn a_step_is_cheap_enough() {
     assert!((100..=250).contains(&step), "{step} instructions");
     assert!(20 * kernels["sine32-sin-cos"] < kernels["libm-sinf-and-cosf"]);
     let machines = kernels.iter().filter(|(name, _)| name.starts_with("machine-"));
-    assert!(machines.clone().count() == 14 && machines.map(|(_, count)| count).all(|count| (500..=20_000).contains(count)));
+    assert!(machines.clone().count() == 15 && machines.map(|(_, count)| count).all(|count| (500..=20_000).contains(count)));
 }

@@ -6,7 +6,7 @@ use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::series::Series;
 
 /// One of every engagement, with losses, and the two halves of a seed; every number is one of single precision.
-pub fn drivetrains() -> [Drivetrain; 10] {
+pub fn drivetrains() -> [Drivetrain; 11] {
     let flywheel = FlywheelLosses { viscous_rate: 0.0625, dry_deceleration: 0.25, brake_deceleration: 5.0, drag_rate: 0.0 };
     let coasting = FlywheelLosses { brake_deceleration: 0.0, ..flywheel };
     let rack = Rack { guided_mass_ratio: 0.03125, viscous: 0.0625, dry_ratio: 0.00390625, load_friction: 0.0 };
@@ -33,6 +33,7 @@ pub fn drivetrains() -> [Drivetrain; 10] {
         Drivetrain { actuation: Actuation { time_constant: 0.0625, ..Actuation::default() }, ..friction },
         Drivetrain { support: Support::amplified(1.25), ..Drivetrain::default() },
         of(Engagement::Viscous { corner_frequency: 4.0 }, flywheel),
+        of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.125, ..flywheel }),
         Drivetrain { rack: Rack { load_friction: 0.125, ..rack }, ..of(Engagement::Rigid, flywheel) },
     ]
 }
@@ -74,6 +75,7 @@ fn bad_words_of_a_drivetrain_are_named() {
         (33, "support_amplification"),
         (34, "time_constant"),
         (35, "load_friction"),
+        (36, "drag_rate"),
     ] {
         for number in [if index == 33 { -11.0 } else { -1.0 }, f32::NAN, 2e12] {
             assert_eq!(with(index, number), parameter);
@@ -115,7 +117,7 @@ fn a_method_runs_what_it_is_for() {
         Err(CaseError::Method { method, .. }) => method == case.method,
         _ => false,
     };
-    let [_, rigid, .., elastic, _, _, _, _] = drivetrains();
+    let [_, rigid, .., elastic, _, _, _, _, _] = drivetrains();
     for method in [FixedMethod::SemiImplicitEuler, FixedMethod::Taylor] {
         let vertical = Ground::both_ways(&[(GroundPiece { shape: Shape::Quiet, duration: 1.0 }, Shape::Quiet)]).unwrap();
         assert!(refused(Case { method, drivetrain: rigid, ..base }));

@@ -84,6 +84,7 @@ const ELASTIC: Drivetrain = Drivetrain {
     ..IDEAL
 };
 const SLIP: Drivetrain = Drivetrain { engagement: Engagement::Viscous { corner_frequency: 4.0 }, flywheel: BRAKED, ..IDEAL };
+const DRAGGED: Drivetrain = Drivetrain { flywheel: FlywheelLosses { drag_rate: 0.1, ..BRAKED }, ..RIGID };
 const LOADED: Drivetrain = Drivetrain { rack: Rack { load_friction: 0.05, ..NO_RACK }, ..RIGID };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 
@@ -154,6 +155,7 @@ pub fn report(counter: &mut impl FnMut() -> u32, out: &mut impl fmt::Write) -> f
     line!("machine-elastic-rk4", consistent, Elastic, ELASTIC, &integrator, level);
     line!("machine-elastic-exponential", consistent, Elastic, ELASTIC, &midpoint, level);
     line!("machine-viscous-slip", consistent, Viscous, SLIP, &integrator, level);
+    line!("machine-drag", consistent, DraggedRigid, DRAGGED, &integrator, level);
     line!("machine-load-friction", consistent, LoadedRigid, LOADED, &integrator, level);
     line!("machine-all-together", body(true, true), Friction, ALL, &integrator, both);
     Ok(())
