@@ -118,7 +118,7 @@ fn fastest(scene: &Scene) -> f64 {
         let answer = train.actuation.engagement_delay + train.actuation.release_delay + train.actuation.dwell;
         let chatter = if answer > 0.0 { 1.0 / answer } else { 0.0 };
         let support = table.support_oscillator().map_or(0.0, |support| core::f64::consts::TAU * support.frequency_hz);
-        support + clutch + chatter + train.rack.viscous + train.flywheel.viscous_rate
+        support + clutch + chatter + train.rack.viscous + train.flywheel.viscous_rate + train.flywheel.drag_rate * (1.0 + 2.0 * sigma)
     });
     devices.fold(scene.block.frequency_parameter(), f64::max)
 }

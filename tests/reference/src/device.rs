@@ -63,6 +63,8 @@ pub struct Device {
     pub bearing_dry: f64,
     /// Deceleration by the brake of an open flywheel, m/s²; may be infinite.
     pub brake: f64,
+    /// Force of an open clutch over the difference of the speeds, 1/s.
+    pub drag: f64,
     /// Capacity of the plates, m/s²; infinite without plates.
     pub capacity: f64,
     /// When the lines by which the capacity rises begin and end after engagement, s, and what share of it there is then.
@@ -198,6 +200,7 @@ impl Device {
             bearing_viscous: table.flywheel.viscous_rate_1_s,
             bearing_dry: table.flywheel.dry_deceleration_m_s2,
             brake,
+            drag: per * inertance * table.flywheel.drag_rate_1_s,
             capacity: per * capacity,
             rise: rise(table.actuation.rise_time_s, table.actuation.time_constant_s),
             engagement_delay: engagement_delay_s,

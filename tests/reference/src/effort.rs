@@ -36,6 +36,11 @@ impl Effort {
         let mut rate = 5.0 * block.frequency_parameter();
         rate = rate.max(3.0 * model.horizontal.rate().max(model.vertical.rate()).max(model.support.rate()));
         rate = rate.max(device.rack_viscous).max(2.0 * device.bearing_viscous);
+        if device.drag > 0.0 {
+            // Both flywheels may be open.
+            let (lever, _) = device.lever.at(1.0, 0.0);
+            rate = rate.max(device.drag * (1.0 / device.inertance + 2.0 * lever * lever / block.inertia));
+        }
         if let Coupling::Slip { damping, .. } = device.coupling {
             let (lever, _) = device.lever.at(1.0, 0.0);
             rate = rate.max(damping * (1.0 / device.inertance + lever * lever / block.inertia));

@@ -7,7 +7,7 @@
 //! In the mesh of rack and pinion the rack also spends μ|F| on each locked flywheel: its force F counts (1 + μ) times where it is along
 //! the motion, else (1 − μ) times, and of these two the one that gives F its own sign is true.
 //!
-//! Flywheels that are not locked: ẇ = F/σ − c w − D sgn w, D = d, and d + b while open.
+//! Flywheels that are not locked: ẇ = F/σ − c w − D sgn w, D = d, and d + b while open. An open clutch drags, F = σ c_d (ẋ − w).
 
 use crate::block::{Block, GRAVITY, Restitution};
 use crate::device::{Coupling, Device};
@@ -137,6 +137,7 @@ impl Model {
                 stiffness * (twist - side * half_play) + damping * relative
             }
             (Link::Dragged, Coupling::Slip { damping, .. }) => damping * relative,
+            (Link::Open, Coupling::Rigid | Coupling::Plates) => self.device.drag * relative,
             _ => 0.0,
         }
     }

@@ -107,7 +107,9 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
         }
         match wheel.turning {
             Some(sign) => all.push((Guard::Stop(i), sign * spin)),
-            None if wheel.link != Link::Open => all.push((Guard::Start(i), device.inertance * dry - force.abs())),
+            None if wheel.link != Link::Open || device.drag > 0.0 => {
+                all.push((Guard::Start(i), device.inertance * dry - force.abs()))
+            }
             None => {}
         }
     }

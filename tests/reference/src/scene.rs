@@ -127,6 +127,7 @@ pub struct FlywheelTable {
     pub viscous_rate_1_s: f64,
     pub dry_deceleration_m_s2: f64,
     pub brake_deceleration_m_s2: Option<NumberOr>,
+    pub drag_rate_1_s: f64,
 }
 
 /// `clutch`.

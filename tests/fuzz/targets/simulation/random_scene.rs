@@ -108,10 +108,14 @@ fn device(draw: &mut Draw<'_>, text: &mut String) -> bool {
     };
     if draw.seldom(2) {
         let (viscous, dry) = (draw.number_or_zero(1e-6, 1e6), draw.number_or_zero(1e-6, 1e6));
-        let _ = writeln!(
+        let _ = write!(
             text,
-            "flywheel = {{ viscous_rate_1_s = {viscous:?}, dry_deceleration_m_s2 = {dry:?}, brake_deceleration_m_s2 = {brake} }}"
+            "flywheel = {{ viscous_rate_1_s = {viscous:?}, dry_deceleration_m_s2 = {dry:?}, brake_deceleration_m_s2 = {brake}"
         );
+        if clutch == 2 && !brake.starts_with('"') {
+            let _ = write!(text, ", drag_rate_1_s = {:?}", draw.number_or_zero(1e-6, 1e3));
+        }
+        text.push_str(" }\n");
     }
     let capacity = draw.number(1e-6, 1e6);
     let _ = match clutch {

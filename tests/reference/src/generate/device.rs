@@ -114,6 +114,19 @@ pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str
             slip(text, start, own.logarithmic(0.05, 50.0));
         }
     }
+    let undragged = ["load_friction", "inertance_corner_hz", "\"instant\""].iter().any(|word| text[start..].contains(word));
+    let opens = match family {
+        "rigid" => true,
+        "plates" => ["engagement_delay_s", "release_delay_s"].iter().any(|delay| text[start..].contains(delay)),
+        _ => false,
+    };
+    if opens && !undragged {
+        let mut own = *random;
+        own = Random::new(own.next_u64().rotate_left(16));
+        if own.chance(0.6) {
+            drag(text, start, own.logarithmic(0.02, 20.0));
+        }
+    }
     family
 }
 
@@ -127,6 +140,15 @@ fn load_friction(text: &mut String, start: usize, value: f64) {
             let _ = write!(text, "{before}rack = {{ load_friction = {value}{comma}{after}");
         }
         None => drop(writeln!(text, "{device}rack = {{ load_friction = {value} }}")),
+    }
+}
+
+/// Drag of open clutches, in the device's table from `start` on.
+fn drag(text: &mut String, start: usize, rate: f64) {
+    let device = text.split_off(start);
+    match device.split_once("flywheel = { ") {
+        Some((before, after)) => drop(write!(text, "{before}flywheel = {{ drag_rate_1_s = {rate}, {after}")),
+        None => drop(writeln!(text, "{device}flywheel = {{ drag_rate_1_s = {rate} }}")),
     }
 }
 
