@@ -220,6 +220,15 @@ pub struct Account<S> {
     pub spent: Spent<S>,
 }
 
+impl<S: Real> Account<S> {
+    /// That of no device: a constant, for a default is a call for each of its arrays.
+    pub const NOTHING: Account<S> = {
+        let (zero, none) = (S::ZERO, [S::ZERO; 2]);
+        let spent = Spent { clutch: zero, brake: zero, bearing: zero, rack: zero, kinematics: zero };
+        Account { force: none, rack_force: zero, engaged: [false; 2], spin: none, stored: zero, sprung: zero, spent }
+    };
+}
+
 /// θ̈ of a block under its weight, the ground and the rack's inertia; with `friction` also that of the rack, and `resistance` there.
 #[inline(always)]
 pub fn acceleration<S: Real, V: Value<S>, B: Body<S>, const X: usize>(
@@ -308,7 +317,7 @@ pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S
     let parameters = at.parameters;
     let rack = at.body.to_terminal(&at.configuration, at.velocity);
     let rack_acceleration = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
-    let mut account = Account::default();
+    let mut account = Account::NOTHING;
     let dry = at.law.direction * parameters.rack_dry;
     account.rack_force = parameters.rack_coupling * rack_acceleration
         + parameters.rack_push * at.ground[0]

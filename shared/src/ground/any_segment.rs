@@ -82,6 +82,7 @@ impl<S: Real> AnySegment<S> {
 }
 
 impl<S: Real> GroundSegment<S> for AnySegment<S> {
+    // Shapes that are no line are looked at out of line: in line they would cost every look registers, in one program and not in another.
     fn acceleration(&self, time: S) -> S {
         each!(self, segment => segment.acceleration(time))
     }

@@ -48,6 +48,8 @@ impl<S: Real> DampedOscillation<S> {
 }
 
 impl<S: Real> GroundSegment<S> for DampedOscillation<S> {
+    // Out of line, for `AnySegment`.
+    #[inline(never)]
     fn acceleration(&self, time: S) -> S {
         self.turned(time).0
     }

@@ -99,7 +99,7 @@ impl MavroeidisPapageorgiou {
 }
 
 impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
-    // In line it would cost an `AnySegment` registers, in one program and not in another.
+    // Out of line, for `AnySegment`.
     #[inline(never)]
     fn acceleration(&self, time: S) -> S {
         self.terms

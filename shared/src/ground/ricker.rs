@@ -29,6 +29,8 @@ impl<S: Real> Ricker<S> {
 }
 
 impl<S: Real> GroundSegment<S> for Ricker<S> {
+    // Out of line, for `AnySegment`.
+    #[inline(never)]
     fn acceleration(&self, time: S) -> S {
         let (x, gaussian) = self.gaussian(time);
         self.amplitude * (S::ONE - S::of(2.0) * (x * x)) * gaussian

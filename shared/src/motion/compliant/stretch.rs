@@ -111,7 +111,7 @@ impl<S: Real> DeviceOutput<S> for Stretch<'_, S> {
         let side = self.mode.motion.side;
         let (sine, cosine) = system.delta(side, motion.rotation);
         let terminal_velocity = cosine * motion.velocity;
-        let mut device = Account::default();
+        let mut device = Account::NOTHING;
         if let Some(wheel) = system.clutch.flywheel(self.mode.engaged, self.mode.motion.direction) {
             let coupling = system.mass_ratio / system.inertia;
             let swing = if system.consistent { side.times(sine * motion.velocity * motion.velocity) } else { S::ZERO };

@@ -55,6 +55,8 @@ impl<S: Real> Asked<S> {
 }
 
 impl<S: Real> Observer<S> for Asked<S> {
+    // What nobody asks for costs a look at two options, and no call.
+    #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         if let Some(energy) = &mut self.energy {
             energy.device_interval(output, interval);
@@ -114,6 +116,7 @@ impl<S: Real> EnergyHistory<S> {
 }
 
 impl<S: Real> Observer<S> for EnergyHistory<S> {
+    #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.ledger.device_interval(output, interval);
         let time = self.origin + (interval.start + interval.to).to_f64();

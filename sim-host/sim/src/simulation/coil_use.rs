@@ -35,6 +35,7 @@ impl CoilUse {
 
 /// Clutches that the motion itself switches, by Eq. 10: they are released while the block stands.
 impl<S: Real> Observer<S> for CoilUse {
+    #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.hold(engaged, (interval.to - interval.from).to_f64());

@@ -81,16 +81,18 @@ impl<'a> Recorder<'a> {
     }
 
     /// At `time` from the origin, `local` from the start of the step.
+    // Out of line, and without closures over arrays: whether those are called or not differs from program to program.
+    #[inline(never)]
     fn sample<S: Real>(&self, time: f64, output: &dyn DeviceOutput<S>, local: S) -> Sample {
         let Snapshot { motion, ground, device: Account { force, engaged, .. }, .. } = output.snapshot(local);
-        let force_ratio = force.map(|force| force.to_f64() * self.force_scale);
+        let scaled = |force: S| force.to_f64() * self.force_scale;
         Sample {
             time_s: time,
             ground_m_s2: ground[0].to_f64() * GRAVITY,
             rotation_rad: motion.rotation.to_f64(),
             velocity_rad_s: motion.velocity.to_f64(),
             acceleration_rad_s2: motion.acceleration.to_f64(),
-            force_ratio,
+            force_ratio: [scaled(force[0]), scaled(force[1])],
             engaged: match engaged {
                 [false, false] => 0,
                 [true, _] => 1,

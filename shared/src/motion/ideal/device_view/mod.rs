@@ -76,7 +76,7 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
         let Motion { rotation, velocity, acceleration } = motion;
         // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
         let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);
-        let mut device = Account::default();
+        let mut device = Account::NOTHING;
         if let Some(wheel) = self.wheel {
             let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
             device.force[wheel] = self.coupling * terminal;
