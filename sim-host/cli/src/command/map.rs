@@ -155,8 +155,10 @@ impl Run for MapArguments {
         report.made_by(input)?;
         report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
         report.rows(&path, &columns)?;
-        for (name, picture) in figures(&grid, &tally)? {
-            report.picture(name, Ok(picture))?;
+        if report.draws() {
+            for (name, picture) in figures(&grid, &tally)? {
+                report.picture(name, Ok(picture))?;
+            }
         }
         report.print(outcome_table(&tally.maps));
         if self.refine {

@@ -129,6 +129,11 @@ impl Report {
         self.results.remove(self.folder.join(name));
     }
 
+    /// Whether pictures are to be written at all.
+    pub fn draws(&self) -> bool {
+        self.formats.svg || self.formats.png
+    }
+
     /// Writes a picture; gives the file to look at first, if any.
     ///
     /// # Errors

@@ -337,12 +337,13 @@ fn scan(
         return Err(LongRunError::OtherRun { path: path.to_owned(), what: "the heading".to_owned() });
     }
     let mut found = Found { rows: 0, end: reader.position().byte() };
-    let mut group: Vec<StringRecord> = Vec::new();
-    let mut record = StringRecord::new();
+    let mut group = vec![StringRecord::new(); (*together).max(1)];
+    let mut filled = 0;
     loop {
-        let row = found.rows + group.len() + 1;
+        let row = found.rows + filled + 1;
+        let record = &mut group[filled];
         let bad = |reason: String| LongRunError::BadRow { path: path.to_owned(), row, reason };
-        let read = reader.read_record(&mut record);
+        let read = reader.read_record(record);
         let end = reader.position().byte();
         match read {
             Ok(false) => return Ok(found),
@@ -352,17 +353,17 @@ fn scan(
             Err(error) => return Err(bad(error.to_string())),
             // What a hole in a file reads as; no field has one.
             Ok(true) if record.as_slice().contains('\0') => return Err(bad("a zero byte".to_owned())),
-            Ok(true) => group.push(record.clone()),
+            Ok(true) => filled += 1,
         }
-        if found.rows + group.len() > range.len() {
+        if found.rows + filled > range.len() {
             return Err(bad(format!("there should be {} rows only", range.len())));
         }
-        if group.len() == (*together).max(1) {
+        if filled == group.len() {
             for (index, record) in group.iter().enumerate() {
                 known(range.start + found.rows + index, record).map_err(bad)?;
             }
-            found = Found { rows: found.rows + group.len(), end };
-            group.clear();
+            found = Found { rows: found.rows + filled, end };
+            filled = 0;
         }
     }
 }
