@@ -25,7 +25,7 @@ const PARTS: [(&str, &[&str]); 6] = [
     ),
     ("zeros, shapes and extremes of them", &["polynomial.rs", "math/root.rs"]),
     ("slender blocks in closed form", &["ensemble/src/slender", "wide_hyperbolic.rs"]),
-    ("events, peaks and the order of both", &["ensemble/src", "shared/src/math/lanes.rs", "pulp"]),
+    ("events, peaks and the order of both", &["ensemble/src"]),
     ("free motion after the pulse, and blocks that go by the core", &["shared/src", "sim-host/loops", "libm"]),
     ("tables, files and pictures", &[""]),
 ];
