@@ -78,6 +78,6 @@ mod tests {
         let mut lines = String::new();
         assert_eq!(super::run(&mut || 0, &mut lines), Ok(()));
         assert!(lines.contains("counter ok") && lines.contains("arithmetic ok"));
-        assert_eq!(lines.matches("kernel ").count(), 89);
+        assert_eq!(lines.matches("kernel ").count(), 90);
     }
 }
