@@ -130,6 +130,13 @@ pub const VARIANTS: [Variant; 33] = [
         PAIR,
         &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
     ),
+    // Open wet clutches drag with a few per cent of what they pass: for σ = 0.5 this is 2 % of a tenth of the block's weight at 0.4 m/s.
+    variant(
+        "engagement",
+        "rigid, drag 0.1 1/s, no brake",
+        PAIR,
+        &["device.N.engagement=rigid", "device.N.flywheel={ drag_rate_1_s = 0.1 }"],
+    ),
     variant(
         "clutch",
         "capacity 0.1 × block weight, instant brake",
@@ -172,17 +179,6 @@ pub const VARIANTS: [Variant; 33] = [
         "bearings 0.05 m/s², 0.05 1/s",
         INERTERS,
         &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
-    ),
-    // Wet plates drag with a few per cent of their capacity at the rated speed: 0.1 1/s is 2 % of this one at 0.4 m/s, for σ = 0.5.
-    variant(
-        "flywheel",
-        "plates drag 0.1 1/s, brake 10 m/s², delays 20 ms",
-        PAIR,
-        &[
-            "device.N.clutch={ capacity_ratio = 0.1 }",
-            "device.N.flywheel={ brake_deceleration_m_s2 = 10, drag_rate_1_s = 0.1 }",
-            "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
-        ],
     ),
     Variant {
         of_pair: &[
@@ -286,6 +282,7 @@ mod tests {
             ("flywheels_ratio = 0.02", "flywheels"),
             ("flywheels_on = \"block\"", "on the block"),
             ("dry_friction_ratio = 0.01", "0.01 × block weight"),
+            ("drag_rate_1_s = 0.1", "drag 0.1 1/s"),
             ("engagement=rigid", "rigid"),
             ("engagement=overrunning", "overrunning"),
         ];
