@@ -115,12 +115,9 @@ pub fn write(text: &mut String, random: &mut Random, site: Site) -> &'static str
         }
     }
     let undragged = ["load_friction", "inertance_corner_hz", "\"instant\""].iter().any(|word| text[start..].contains(word));
-    let opens = match family {
-        "rigid" => true,
-        "plates" => ["engagement_delay_s", "release_delay_s"].iter().any(|delay| text[start..].contains(delay)),
-        _ => false,
-    };
-    if opens && !undragged {
+    let late = ["engagement_delay_s", "release_delay_s"].iter().any(|delay| text[start..].contains(delay));
+    // Without a delay Eq. 10 may engage and release at one instant of a turn a flywheel that drag has turned the wrong way.
+    if matches!(family, "rigid" | "plates") && late && !undragged {
         let mut own = *random;
         own = Random::new(own.next_u64().rotate_left(16));
         if own.chance(0.6) {
