@@ -30,7 +30,7 @@ fn ledgers_close() {
         }
         let parsed = Scene::parse(&generated.text).expect("a scene");
         let residual = run(&parsed, 0, &folder).expect("a run").ledger.shares().residual;
-        assert!(residual < 3e-10, "scene {number}, {}: {residual:e}", generated.family);
+        assert!(residual < 1e-9, "scene {number}, {}: {residual:e}", generated.family);
     }
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
 }
