@@ -3,9 +3,10 @@
 use std::vec::Vec;
 
 use super::limits::engaging_at_speed;
+use super::maxwell::Swing;
 use super::{Watcher, pair, sine, structure, tight};
 use crate::ground::{AnySegment, Linear};
-use crate::math::{exp, sin_cos, square_root};
+use crate::math::exp;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::Event;
@@ -46,35 +47,24 @@ fn open_clutches_are_maxwell_elements() {
         for ratio in [0.3, 1.0, 4.0] {
             let structure = structure(Geometry::Slender, 15.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);
             let block = &structure.block;
-            let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), 2.0 * SIGMA / block.inertia_ratio());
-            let (omega, amplitude) = (8.0 * p, 0.5);
+            let (alpha, k) = (block.slenderness(), 2.0 * SIGMA / block.inertia_ratio());
+            let (omega, amplitude) = (8.0 * block.frequency_parameter(), 0.5);
             let rate = omega / ratio;
             let machine: HybridSystem<f64> = open(engagement, dragged(rate)).resolve(&structure, false).unwrap();
-            // θ̈ + k θ̈/(1 + iω/c) = p²(θ − α) − p² a.
-            let share = 1.0 / (1.0 + ratio * ratio);
-            let (real, imaginary) = (p * p + omega * omega * (1.0 + k * share), -omega * omega * k * share * ratio);
-            let square = real * real + imaginary * imaginary;
-            // X of θ = α + Im X e^(iωt) under a = A sin ωt.
-            let x = (p * p * amplitude * real / square, -p * p * amplitude * imaginary / square);
-            let at = |time: f64, (re, im): (f64, f64)| {
-                let (sin, cos) = sin_cos(omega * time);
-                re * sin + im * cos
-            };
-            let speed = (-omega * x.1, omega * x.0);
-            let spin = ((speed.0 + ratio * speed.1) * share, (speed.1 - ratio * speed.0) * share);
-            let mut state = machine.released_at(alpha + at(0.0, x), at(0.0, speed), [0.0; 3]);
-            let apart = 0.7 * omega * square_root(x.0 * x.0 + x.1 * x.1);
-            state.device.wheels[0].spin = at(0.0, spin) + apart;
-            state.device.wheels[1].spin = at(0.0, spin) - apart;
+            let swing = Swing::of(block, k, (omega, amplitude), ratio);
+            let size = swing.size();
+            let mut state = machine.released_at(alpha + swing.at(0.0, swing.rotation), swing.at(0.0, swing.velocity), [0.0; 3]);
+            let apart = 0.7 * omega * size;
+            state.device.wheels[0].spin = swing.at(0.0, swing.spin) + apart;
+            state.device.wheels[1].spin = swing.at(0.0, swing.spin) - apart;
             let ground = sine(amplitude, omega);
             let end = 2.3 * core::f64::consts::TAU / omega;
             machine.advance(&tight(), &mut state, Shaking::level(&ground), end, &LIMITS, &mut ()).unwrap();
-            let size = square_root(x.0 * x.0 + x.1 * x.1);
-            let error = (state.motion.rotation - alpha - at(end, x)) / size;
+            let error = (state.motion.rotation - alpha - swing.at(end, swing.rotation)) / size;
             assert!(error.abs() < 1e-11, "{engagement:?}, ω/c = {ratio}: θ off by {error:e}");
             let still_apart = apart * exp(-rate * end);
             for (wheel, differs) in state.device.wheels.iter().zip([still_apart, -still_apart]) {
-                let error = (wheel.spin - at(end, spin) - differs) / (omega * size);
+                let error = (wheel.spin - swing.at(end, swing.spin) - differs) / (omega * size);
                 assert!(error.abs() < 1e-11, "{engagement:?}, ω/c = {ratio}: w off by {error:e}");
             }
         }

@@ -7,6 +7,7 @@ mod energy;
 mod ground;
 mod limits;
 mod load_friction;
+mod maxwell;
 mod methods;
 mod restitution_scatter;
 mod standing;

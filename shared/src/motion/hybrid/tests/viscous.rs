@@ -3,10 +3,10 @@
 use std::vec::Vec;
 
 use super::limits::engaging_at_speed;
+use super::maxwell::Swing;
 use super::{Shake, Watcher, shake, structure, tight};
 use crate::drivetrain::clutch_state::Coupling;
 use crate::ground::{AnySegment, Linear};
-use crate::math::{sin_cos, square_root};
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
@@ -38,31 +38,20 @@ fn it_has_the_transfer_function_of_a_maxwell_element() {
     for ratio in [0.3, 1.0, 4.0] {
         let structure = structure(Geometry::Slender, 15.0, DeviceKind::Inerter, SIGMA, KinematicsKind::Consistent);
         let block = &structure.block;
-        let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), SIGMA / block.inertia_ratio());
-        let (omega, amplitude) = (8.0 * p, 0.5);
+        let (alpha, k) = (block.slenderness(), SIGMA / block.inertia_ratio());
+        let (omega, amplitude) = (8.0 * block.frequency_parameter(), 0.5);
         let machine: HybridSystem<f64> = slip(omega / ratio).resolve(&structure, false).unwrap();
-        // θ̈ + k θ̈/(1 + iω/ω_c) = p²(θ − α) − p² a.
-        let share = 1.0 / (1.0 + ratio * ratio);
-        let (real, imaginary) = (p * p + omega * omega * (1.0 + k * share), -omega * omega * k * share * ratio);
-        let square = real * real + imaginary * imaginary;
-        // X of θ = α + Im X e^(iωt) under a = A sin ωt.
-        let x = (p * p * amplitude * real / square, -p * p * amplitude * imaginary / square);
-        let at = |time: f64, (re, im): (f64, f64)| {
-            let (sin, cos) = sin_cos(omega * time);
-            re * sin + im * cos
-        };
-        let rate = (-omega * x.1, omega * x.0);
-        let spin = ((rate.0 + ratio * rate.1) * share, (rate.1 - ratio * rate.0) * share);
-        let mut state = machine.released_at(alpha + at(0.0, x), at(0.0, rate), [0.0; 3]);
-        state.device.wheels[0].spin = at(0.0, spin);
+        let swing = Swing::of(block, k, (omega, amplitude), ratio);
+        let mut state = machine.released_at(alpha + swing.at(0.0, swing.rotation), swing.at(0.0, swing.velocity), [0.0; 3]);
+        state.device.wheels[0].spin = swing.at(0.0, swing.spin);
         let ground = super::sine(amplitude, omega);
         let end = 2.3 * core::f64::consts::TAU / omega;
         let shaking = Shaking { horizontal: &ground, vertical: None, support: None };
         machine.advance(&tight(), &mut state, shaking, end, &LIMITS, &mut ()).unwrap();
-        let size = square_root(x.0 * x.0 + x.1 * x.1);
-        let error = (state.motion.rotation - alpha - at(end, x)) / size;
+        let size = swing.size();
+        let error = (state.motion.rotation - alpha - swing.at(end, swing.rotation)) / size;
         assert!(error.abs() < 1e-11, "ω/ω_c = {ratio}: θ off by {error:e}");
-        let error = (state.device.wheels[0].spin - at(end, spin)) / (omega * size);
+        let error = (state.device.wheels[0].spin - swing.at(end, swing.spin)) / (omega * size);
         assert!(error.abs() < 1e-11, "ω/ω_c = {ratio}: w off by {error:e}");
     }
 }
