@@ -7,7 +7,7 @@ use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::ErrorEstimate;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::simulation::{DeviceRun, RunError, simulate_for_study};
-use sprag_sim::under_records::{Shaking, Subject, followed};
+use sprag_sim::under_records::{Followed, Subject, followed};
 
 use super::motion::StudyMotion;
 
@@ -48,15 +48,16 @@ pub(crate) fn answers(
         let known: Vec<_> = motions.iter().map(|motion| motion.shaking(vertical)).collect();
         let runs: Vec<_> = known.iter().flatten().map(|shaking| (subject, *shaking)).collect();
         let mut found = followed(&runs).into_iter();
-        let answer = |(motion, known): (&StudyMotion, &Option<Shaking<'_>>)| {
-            let answer = match known.and_then(|_| found.next().flatten()) {
+        let in_lanes: Vec<_> = known.iter().map(|known| known.and_then(|_| found.next().flatten())).collect();
+        let answer = |(motion, in_lanes): (&StudyMotion, Option<Followed>)| {
+            let answer = match in_lanes {
                 Some(followed) => Ok(Answer::of_shaken(&followed.motion, &subject.scene.block)),
                 None => by_core(subject, motion, vertical, interrupt),
             };
             done();
             answer
         };
-        motions.iter().zip(&known).map(answer).collect()
+        motions.par_iter().zip(in_lanes).map(answer).collect()
     };
     motions.par_chunks(TOGETHER).flat_map(together).collect()
 }
