@@ -98,7 +98,7 @@ const ROWS: &[Row] = &[
         name: "flywheel, drag",
         set: &[
             "PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0,\
-             drag_rate_1_s=0.1}}",
+             drag_rate_1_s=0.1},actuation={engagement_delay_s=0.02}}",
         ],
         base: "flywheel",
         kernel: "machine-drag",

@@ -134,8 +134,8 @@ class FlywheelLosses(Table):
         Deceleration by a brake on released flywheels; not of an inerter, an ideal or an overrunning clutch;
         from 0 to 1e+09; 0.0 by default.
     drag_rate_1_s
-        Rate at which the drag of an open clutch, rigid or of plates with a delay, takes a flywheel to a
-        steady rack: e^(−rate t); from 0 to 1000; 0.0 by default.
+        Rate at which drag of an open clutch, rigid or plates with a delay, takes a flywheel to a steady rack:
+        e^(−rate t); from 0 to 1000; 0.0 by default.
 
     Raises
     ------

@@ -57,7 +57,7 @@ pub struct FlywheelLosses {
     /// Deceleration by a brake that acts while the clutch is open, m/s²; 0 to 1e9, or infinite: stopped at once.
     pub brake_deceleration: f64,
     /// Viscous drag of the open clutch, c over the inertance: a released flywheel nears the speed of a steady rack as e^(-rate t), and the
-    /// rack meets c times the difference of the speeds. 1/s; 0 to 1000. Of a rigid clutch, or of plates with a delay, without an infinite brake.
+    /// rack meets c times the difference of the speeds. 1/s; 0 to 1000. Of a rigid clutch or plates with a delay, without an infinite brake.
     pub drag_rate: f64,
 }
 
@@ -169,11 +169,10 @@ impl Drivetrain {
         let brake = flywheel.brake_deceleration;
         require("drag_rate", drag, drag == 0.0 || brake.is_finite(), "0 1/s beside an infinite brake")?;
         require("drag_rate", drag, drag == 0.0 || load == 0.0, "0 1/s beside friction that grows with load")?;
-        // At a turn Eq. 10 would engage plates on a flywheel that drag has turned the wrong way, which push the block back, and release them
-        // at the same instant, over and over.
+        // At a turn Eq. 10 would engage a flywheel that drag has turned the wrong way, which turns the block about, and release it at the
+        // same instant, over and over.
         let late = actuation.engagement_delay > 0.0 || actuation.release_delay > 0.0;
-        let plates = matches!(self.engagement, Engagement::Friction { .. });
-        require("drag_rate", drag, drag == 0.0 || !plates || late, "0 1/s with plates without a delay")?;
+        require("drag_rate", drag, drag == 0.0 || late, "0 1/s with a clutch without a delay")?;
         if self.engagement == Engagement::Overrunning {
             // The block would catch up with a braked flywheel at once and be braked through it.
             within("brake_deceleration", flywheel.brake_deceleration, 0.0, "0 m/s² for an overrunning clutch")?;

@@ -205,6 +205,7 @@ fn effects() -> Vec<Effect> {
         miss_probability: 0.25,
         miss_seed: 0x1234_5678_9abc_def0,
     };
+    let prompt = Actuation { engagement_delay: 0.02, ..Actuation::default() };
     let of = |engagement, flywheel| Drivetrain { engagement, flywheel, ..Drivetrain::default() };
     let spring = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
     let (rigid, plates) = (of(Engagement::Rigid, braked), of(Engagement::Friction { capacity_ratio: 0.03 }, braked));
@@ -233,11 +234,14 @@ fn effects() -> Vec<Effect> {
             Drivetrain { actuation: Actuation { time_constant: 0.05, ..Actuation::default() }, ..plates },
         ),
         Effect::of("viscous slip", of(Engagement::Viscous { corner_frequency: 4.0 }, braked)),
-        Effect::of("drag of rigid clutches", of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.5, ..coasting })),
+        Effect::of(
+            "drag of rigid clutches",
+            Drivetrain { actuation: prompt, ..of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.5, ..coasting }) },
+        ),
         Effect::of(
             "drag of friction clutches",
             Drivetrain {
-                actuation: Actuation { engagement_delay: 0.02, ..Actuation::default() },
+                actuation: prompt,
                 ..of(Engagement::Friction { capacity_ratio: 0.03 }, FlywheelLosses { drag_rate: 0.5, ..coasting })
             },
         ),

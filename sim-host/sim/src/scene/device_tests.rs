@@ -256,11 +256,14 @@ fn contradictory_effects_are_refused_with_the_reason() {
     for other in ["engagement=ideal", "engagement=overrunning", "clutch.stiffness_ratio=10", "inertance_corner_hz=4"] {
         refused(&[drag, &format!("device.2.{other}")], &["device.2.flywheel.drag_rate_1_s", "a rigid one and for plates"]);
     }
-    refused(&[drag, "device.2.clutch.capacity_ratio=0.1"], &["device.2.flywheel.drag_rate_1_s", "engagement_delay_s"]);
+    for clutch in [rigid, "device.2.clutch.capacity_ratio=0.1"] {
+        refused(&[drag, clutch], &["device.2.flywheel.drag_rate_1_s", "engagement_delay_s"]);
+    }
+    let late = "device.2.actuation.release_delay_s=0.01";
     let stopped = "device.2.flywheel={ drag_rate_1_s = 0.1, brake_deceleration_m_s2 = \"instant\" }";
-    refused(&[rigid, stopped], &["device.2.flywheel.drag_rate_1_s", "stopped at once"]);
-    refused(&[rigid, drag, "device.2.rack.load_friction=0.1"], &["device.2.flywheel.drag_rate_1_s", "rack.load_friction"]);
-    refused(&[rigid, "device.2.flywheel.drag_rate_1_s=1001"], &["device.2.flywheel.drag_rate_1_s is 1001", "to 1000 1/s"]);
+    refused(&[rigid, late, stopped], &["device.2.flywheel.drag_rate_1_s", "stopped at once"]);
+    refused(&[rigid, drag, late, "device.2.rack.load_friction=0.1"], &["device.2.flywheel.drag_rate_1_s", "rack.load_friction"]);
+    refused(&[rigid, late, "device.2.flywheel.drag_rate_1_s=1001"], &["device.2.flywheel.drag_rate_1_s is 1001", "to 1000 1/s"]);
     let load = "device.2.rack={ load_friction = 0.1 }";
     for other in ["engagement=overrunning", "clutch.capacity_ratio=0.1", "clutch.stiffness_ratio=10", "inertance_corner_hz=4"] {
         refused(&[load, &format!("device.2.{other}")], &["device.2.rack.load_friction", "locked to the rack"]);

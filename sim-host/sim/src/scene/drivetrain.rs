@@ -41,7 +41,7 @@ pub struct FlywheelLossesTable {
     /// Deceleration by a brake on released flywheels; not of an inerter, an ideal or an overrunning clutch.
     #[serde(default)]
     pub brake_deceleration_m_s2: BrakeValue,
-    /// Rate at which the drag of an open clutch, rigid or of plates with a delay, takes a flywheel to a steady rack: e^(−rate t).
+    /// Rate at which drag of an open clutch, rigid or plates with a delay, takes a flywheel to a steady rack: e^(−rate t).
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e3))]
     pub drag_rate_1_s: f64,
@@ -320,10 +320,9 @@ impl DeviceTable {
                               clutch.capacity_ratio without a stiffness";
                 return Err(key(name).conflict(reason));
             }
-            let late = actuation.engagement_delay > 0.0 || actuation.release_delay > 0.0;
-            if engagement != Engagement::Rigid && !late {
-                let reason = "plates that drag need actuation.engagement_delay_s or release_delay_s: without either Eq. 10 would engage and \
-                              release them at one instant of a turn, over and over";
+            if actuation.engagement_delay == 0.0 && actuation.release_delay == 0.0 {
+                let reason = "a clutch that drags needs actuation.engagement_delay_s or release_delay_s: without either Eq. 10 would engage \
+                              and release it at one instant of a turn, over and over";
                 return Err(key(name).conflict(reason));
             }
             if brake_deceleration.is_infinite() {

@@ -133,9 +133,13 @@ pub const VARIANTS: [Variant; 33] = [
     // Open wet clutches drag with a few per cent of what they pass: for σ = 0.5 this is 2 % of a tenth of the block's weight at 0.4 m/s.
     variant(
         "engagement",
-        "rigid, drag 0.1 1/s, no brake",
+        "rigid, drag 0.1 1/s, 1 ms to engage, no brake",
         PAIR,
-        &["device.N.engagement=rigid", "device.N.flywheel={ drag_rate_1_s = 0.1 }"],
+        &[
+            "device.N.engagement=rigid",
+            "device.N.flywheel={ drag_rate_1_s = 0.1 }",
+            "device.N.actuation={ engagement_delay_s = 0.001 }",
+        ],
     ),
     variant(
         "clutch",
@@ -259,9 +263,11 @@ mod tests {
                 assert!((effect.is_on)(&scene, index), "{}", variant.label());
                 let on = Effects::of_scene(&scene).on.into_iter().chain(Effects::of_device(&scene, index).on);
                 let others: Vec<_> = on.map(|setting| setting.effect.name).filter(|name| *name != variant.effect).collect();
-                // Flywheels with a speed of their own bring the consistent kinematics with them, and a coil needs the plates that it presses.
-                let brought = ["flywheel", "kinematics"];
-                let brought = brought.into_iter().chain(variant.name.starts_with("coil").then_some("clutch")).collect::<Vec<_>>();
+                // Flywheels with a speed of their own bring the consistent kinematics with them, a coil needs the plates that it presses, and
+                // a clutch that drags needs a delay.
+                let needed = [("coil", "clutch"), ("drag", "actuation")];
+                let needed = needed.into_iter().filter(|(word, _)| variant.name.contains(word)).map(|(_, effect)| effect);
+                let brought: Vec<_> = ["flywheel", "kinematics"].into_iter().chain(needed).collect();
                 assert!(others.iter().all(|name| brought.contains(name)), "{}: {others:?}", variant.label());
             }
         }
@@ -283,6 +289,7 @@ mod tests {
             ("flywheels_on = \"block\"", "on the block"),
             ("dry_friction_ratio = 0.01", "0.01 × block weight"),
             ("drag_rate_1_s = 0.1", "drag 0.1 1/s"),
+            ("engagement_delay_s = 0.001", "1 ms to engage"),
             ("engagement=rigid", "rigid"),
             ("engagement=overrunning", "overrunning"),
         ];

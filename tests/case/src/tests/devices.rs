@@ -33,7 +33,10 @@ pub fn drivetrains() -> [Drivetrain; 11] {
         Drivetrain { actuation: Actuation { time_constant: 0.0625, ..Actuation::default() }, ..friction },
         Drivetrain { support: Support::amplified(1.25), ..Drivetrain::default() },
         of(Engagement::Viscous { corner_frequency: 4.0 }, flywheel),
-        of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.125, ..flywheel }),
+        Drivetrain {
+            actuation: Actuation { rise_time: 0.0, ..actuation },
+            ..of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.125, ..flywheel })
+        },
         Drivetrain { rack: Rack { load_friction: 0.125, ..rack }, ..of(Engagement::Rigid, flywheel) },
     ]
 }

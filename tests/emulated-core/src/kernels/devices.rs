@@ -84,7 +84,11 @@ const ELASTIC: Drivetrain = Drivetrain {
     ..IDEAL
 };
 const SLIP: Drivetrain = Drivetrain { engagement: Engagement::Viscous { corner_frequency: 4.0 }, flywheel: BRAKED, ..IDEAL };
-const DRAGGED: Drivetrain = Drivetrain { flywheel: FlywheelLosses { drag_rate: 0.1, ..BRAKED }, ..RIGID };
+const DRAGGED: Drivetrain = Drivetrain {
+    flywheel: FlywheelLosses { drag_rate: 0.1, ..BRAKED },
+    actuation: Actuation { engagement_delay: 0.02, ..PROMPT },
+    ..RIGID
+};
 const LOADED: Drivetrain = Drivetrain { rack: Rack { load_friction: 0.05, ..NO_RACK }, ..RIGID };
 const ALL: Drivetrain = Drivetrain { rack: RACK, actuation: LATE, ..FRICTION };
 

@@ -231,6 +231,7 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 14] {
     let guided = Rack { guided_mass_ratio: 0.02, ..Rack::default() };
     let of = |engagement, flywheel, rack| Drivetrain { engagement, flywheel, rack, ..Drivetrain::default() };
     let elastic = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
+    let late = Actuation { engagement_delay: 0.02, ..Actuation::default() };
     [
         ("ideal with friction", of(Engagement::Ideal, bearings, rack)),
         ("rigid", of(Engagement::Rigid, flywheel, rack)),
@@ -256,11 +257,14 @@ pub fn drivetrains() -> [(&'static str, Drivetrain); 14] {
         ("ideal with load friction", of(Engagement::Ideal, bearings, Rack { load_friction: 0.1, ..rack })),
         ("rigid with load friction", of(Engagement::Rigid, flywheel, Rack { load_friction: 0.1, ..rack })),
         ("viscous slip", of(Engagement::Viscous { corner_frequency: 3.0 }, flywheel, rack)),
-        ("rigid with drag", of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.4, ..flywheel }, rack)),
+        (
+            "rigid with drag",
+            Drivetrain { actuation: late, ..of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.4, ..flywheel }, rack) },
+        ),
         (
             "friction clutch with drag",
             Drivetrain {
-                actuation: Actuation { engagement_delay: 0.02, ..Actuation::default() },
+                actuation: late,
                 ..of(Engagement::Friction { capacity_ratio: 0.03 }, FlywheelLosses { drag_rate: 1.0, ..bearings }, rack)
             },
         ),
