@@ -73,13 +73,12 @@ impl Run for EffectsArguments {
 
 /// What an effect costs, in words.
 fn cost_in_words(name: &str) -> String {
-    match cost(name) {
-        Some(cost) => format!(
-            "host {} instructions, {} ns; target {} instructions",
-            cost.host_instructions, cost.host_ns, cost.target_instructions
-        ),
-        None => "not measured".to_owned(),
-    }
+    let Some(cost) = cost(name) else { return "not measured".to_owned() };
+    let target = match cost.target_instructions.as_str() {
+        "–" => String::new(),
+        count => format!("; target {count} instructions"),
+    };
+    format!("host {} instructions, {} ns{target}", cost.host_instructions, cost.host_ns)
 }
 
 /// Every effect with its keys, their defaults and its cost.
