@@ -255,6 +255,11 @@ impl<S: Real> SlidingSystem<S> {
         observer: &mut dyn Observer<S>,
     ) -> S {
         let (here, speed) = (ground.at(time), state.motion.velocity.abs());
+        let nothing = self.rest_speed * S::EPSILON;
+        // Impacts at which the toe slips shrink in proportion, and with them both speeds.
+        if speed.larger(state.slip.abs()) <= nothing && self.stands(here) {
+            state.slip = S::ZERO;
+        }
         if state.slip != S::ZERO {
             if self.friction <= self.uplift {
                 state.motion = state.motion.rested(state.motion.impacts);
@@ -278,7 +283,7 @@ impl<S: Real> SlidingSystem<S> {
         let side = state.motion.side;
         let tail = Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed);
         // Where the toe would slip in each of the swings, none of them is worth following.
-        let negligible = speed <= self.rest_speed * S::EPSILON || state.contact != Contact::Sticks;
+        let negligible = speed <= nothing || state.contact != Contact::Sticks;
         let Some(ends) = tail.rest(time, duration, negligible, |at| self.stands(ground.at(at))) else { return time };
         state.motion = state.motion.rested(state.motion.impacts + tail.impacts);
         if state.contact != Contact::Sticks {

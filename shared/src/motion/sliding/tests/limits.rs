@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::ground::Ricker;
+use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;
 use crate::structure::device::DeviceKind;
 
@@ -61,4 +62,24 @@ fn what_it_cannot_go_with_is_refused_by_name() {
     assert_eq!(base.resolve::<f64>().unwrap_err().parameter, "friction_coefficient");
     let drivetrain = crate::structure::drivetrain::Drivetrain::default();
     assert_eq!(drivetrain.resolve::<f64>(&base, true).unwrap_err().parameter, "friction_coefficient");
+}
+
+/// Impacts at which the toe slips follow one another without end, in proportion; the block comes to rest after them, and stands.
+#[test]
+fn impacts_that_slip_end_in_rest() {
+    for (friction, push) in [(0.2, 0.0), (0.3, 0.02), (0.4, -0.08)] {
+        let structure = Structure { restitution: Restitution::Constant(0.85), ..block(0.1745, friction) };
+        let system = structure.resolve_sliding().unwrap();
+        let mut state = system.released_at(0.05, 0.0, [push, 0.0]);
+        let landing = system.land(Sign::Positive, -1e-3, 0.0);
+        assert!(landing.slip != 0.0, "μ = {friction}: {landing:?}");
+        let pieces = std::vec![(constant(push), None, 0.005); 2000];
+        let seen = follow(&system, &mut state, &pieces, 5e-4);
+        assert!(state.stands() && state.farthest > 0.0, "μ = {friction}: {state:?}");
+        let (events, intervals) = (seen.events.len(), seen.ends.len());
+        assert!(events < 4000 && intervals < 20_000, "μ = {friction}: {events} events in {intervals} intervals");
+        // It stays so.
+        let later = follow(&system, &mut state, &pieces, 5e-4);
+        assert_eq!((later.events.len(), later.ends.len()), (0, 0), "μ = {friction}");
+    }
 }
