@@ -205,7 +205,7 @@ fn effects() -> Vec<Effect> {
         miss_probability: 0.25,
         miss_seed: 0x1234_5678_9abc_def0,
     };
-    let prompt = Actuation { engagement_delay: 0.02, ..Actuation::default() };
+    let delayed = Actuation { engagement_delay: 0.02, ..Actuation::default() };
     let of = |engagement, flywheel| Drivetrain { engagement, flywheel, ..Drivetrain::default() };
     let spring = |backlash, capacity_ratio| Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash, capacity_ratio };
     let (rigid, plates) = (of(Engagement::Rigid, braked), of(Engagement::Friction { capacity_ratio: 0.03 }, braked));
@@ -236,12 +236,12 @@ fn effects() -> Vec<Effect> {
         Effect::of("viscous slip", of(Engagement::Viscous { corner_frequency: 4.0 }, braked)),
         Effect::of(
             "drag of rigid clutches",
-            Drivetrain { actuation: prompt, ..of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.5, ..coasting }) },
+            Drivetrain { actuation: delayed, ..of(Engagement::Rigid, FlywheelLosses { drag_rate: 0.5, ..coasting }) },
         ),
         Effect::of(
             "drag of friction clutches",
             Drivetrain {
-                actuation: prompt,
+                actuation: delayed,
                 ..of(Engagement::Friction { capacity_ratio: 0.03 }, FlywheelLosses { drag_rate: 0.5, ..coasting })
             },
         ),

@@ -158,14 +158,13 @@ fn it_has_a_range_and_what_it_cannot_go_with_is_refused() {
     let refused = |engagement, flywheel, rack: Rack| {
         assert_eq!(check(engagement, flywheel, rack).unwrap_err().parameter, "drag_rate", "{engagement:?} {flywheel:?} {rack:?}");
     };
-    let [rigid, _] = CLUTCHES;
     for rate in [-1.0, 1001.0, f64::INFINITY, f64::NAN] {
-        refused(rigid, dragged(rate), Rack::default());
+        refused(Engagement::Rigid, dragged(rate), Rack::default());
     }
     for engagement in [Engagement::Ideal, Engagement::Overrunning, Engagement::Viscous { corner_frequency: 2.0 }] {
         refused(engagement, dragged(0.1), Rack::default());
     }
-    refused(rigid, dragged(0.1), Rack { load_friction: 0.1, ..Rack::default() });
+    refused(Engagement::Rigid, dragged(0.1), Rack { load_friction: 0.1, ..Rack::default() });
     for engagement in CLUTCHES {
         let at_once = Drivetrain { actuation: Actuation::default(), ..open(engagement, dragged(0.1)) };
         assert_eq!(at_once.check().unwrap_err().parameter, "drag_rate");
