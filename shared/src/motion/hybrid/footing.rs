@@ -2,7 +2,8 @@
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::Coupling;
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
+use crate::equation::Accelerations;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -43,15 +44,40 @@ impl<S: Real> HybridSystem<S> {
     /// [`HybridSystem::advance`], which is to be called where it answers `false`.
     #[inline]
     pub fn stands_through(&self, footing: &Footing<S>, state: &mut HybridState<S>, shaking: Shaking<'_, S>, duration: S) -> bool {
-        let waits = state.device.wheels.iter().all(|wheel| {
+        let stands = self.waits(state, duration) && footing.holds(shaking, duration);
+        if stands {
+            self.stay(state, shaking.at(duration), duration);
+        }
+        stands
+    }
+
+    /// Whether the block stands, and nothing of its device will move for `duration` (s) unless the block does.
+    #[inline]
+    pub fn waits(&self, state: &HybridState<S>, duration: S) -> bool {
+        let waits = |wheel: &FlywheelState<S>| {
             wheel.spin == S::ZERO
                 && matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Viscous)
                 && (wheel.pending < S::ZERO || wheel.pending > duration)
-        });
-        if state.motion.phase != Phase::Rest || !waits || self.transmission.parameters.rise_time > S::ZERO || duration <= S::ZERO
-        {
-            return false;
-        }
+        };
+        state.motion.phase == Phase::Rest
+            && waits(&state.device.wheels[0])
+            && waits(&state.device.wheels[1])
+            && self.transmission.parameters.rise_time <= S::ZERO
+            && duration > S::ZERO
+    }
+
+    /// Lets `duration` (s) pass for a block that [`HybridSystem::waits`] on ground that [`Footing::holds`], up to where the ground has the
+    /// accelerations `last`.
+    #[inline]
+    pub fn stay(&self, state: &mut HybridState<S>, last: Accelerations<S>, duration: S) {
+        state.device.elapse(duration);
+        state.ground = last;
+    }
+}
+
+impl<S: Real> Footing<S> {
+    /// Whether `duration` (s) of a ground segment certainly lifts no block that stands.
+    pub fn holds(&self, shaking: Shaking<'_, S>, duration: S) -> bool {
         let (first, last) = (shaking.at(S::ZERO), shaking.at(duration));
         let bow = |curvature: S| curvature * duration * duration * S::of(0.125);
         let push = first[0].abs().larger(last[0].abs()) + bow(shaking.horizontal.curvature_bound());
@@ -59,15 +85,10 @@ impl<S: Real> HybridSystem<S> {
             Some(vertical) => first[1].smaller(last[1]) - bow(vertical.curvature_bound()),
             None => S::ZERO,
         };
-        let mut push = footing.push * push;
+        let mut push = self.push * push;
         if let Some(support) = shaking.support {
-            push = push + footing.support * (first[2].abs().larger(last[2].abs()) + bow(support.curvature_bound()));
+            push = push + self.support * (first[2].abs().larger(last[2].abs()) + bow(support.curvature_bound()));
         }
-        if push > S::of(CERTAIN) * footing.weight * (S::ONE + lift) {
-            return false;
-        }
-        state.device.elapse(duration);
-        state.ground = last;
-        true
+        push <= S::of(CERTAIN) * self.weight * (S::ONE + lift)
     }
 }

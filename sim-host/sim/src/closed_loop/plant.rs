@@ -66,6 +66,32 @@ pub struct Surroundings<'a> {
     pub exponential: bool,
 }
 
+/// The ground motion over one segment.
+struct Pieces {
+    horizontal: SumSegment<f64>,
+    vertical: Option<SumSegment<f64>>,
+    /// It certainly lifts no block that stands.
+    holds: bool,
+}
+
+impl Pieces {
+    fn shaking(&self) -> Shaking<'_, f64> {
+        Shaking { horizontal: &self.horizontal, vertical: self.vertical.as_ref().map(|piece| piece as _), support: None }
+    }
+
+    /// Accelerations `duration` (s) after `offset` (s).
+    fn accelerations(&self, offset: f64, duration: f64) -> Accelerations<f64> {
+        let vertical = self.vertical.as_ref().map_or(0.0, |piece| piece.acceleration_after(offset, duration));
+        [self.horizontal.acceleration_after(offset, duration), vertical, 0.0]
+    }
+
+    /// From `offset` (s) on.
+    fn after(&self, offset: f64) -> Pieces {
+        let vertical = self.vertical.as_ref().map(|piece| piece.after(offset));
+        Pieces { horizontal: self.horizontal.after(offset), vertical, ..*self }
+    }
+}
+
 /// A machine and its place in the ground motion.
 pub struct Plant<'a> {
     machine: HybridSystem<f64>,
@@ -78,7 +104,7 @@ pub struct Plant<'a> {
     posture: Posture,
     time: f64,
     index: usize,
-    pieces: Option<(SumSegment<f64>, Option<SumSegment<f64>>)>,
+    pieces: Option<Pieces>,
     limits: Limits<f64>,
     lightest: f64,
 }
@@ -100,10 +126,11 @@ impl<'a> Plant<'a> {
         } else {
             FixedStep { scheme: Scheme::RungeKutta4, step }
         };
+        let places = Places::new(&machine, block);
         Plant {
-            places: Places::new(&machine, block),
+            places,
             footing: machine.footing(),
-            posture: Posture::of(&machine, &state.motion),
+            posture: places.posture(&machine, &state.motion),
             machine,
             method: hybrid(Method::Fixed(method)),
             state,
@@ -142,7 +169,10 @@ impl<'a> Plant<'a> {
         let horizontal = self.segment();
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
         let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
-        self.pieces = Some((horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to()), up));
+        let horizontally = horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to());
+        let mut pieces = Pieces { horizontal: horizontally, vertical: up, holds: false };
+        pieces.holds = horizontal.is_some_and(|segment| self.footing.holds(pieces.shaking(), segment.duration));
+        self.pieces = Some(pieces);
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, 0.0, self.lightest);
     }
@@ -182,16 +212,19 @@ impl<'a> Plant<'a> {
                 segment.map_or((self.time, until), |segment| (segment.start, until.min(segment.start + segment.duration)));
             watcher.segment(self.time, segment);
             self.shocks.origin = self.time;
-            if let Some((horizontal, vertical)) = &self.pieces {
-                let offset = self.time - start;
-                let (horizontal, vertical) = (horizontal.after(offset), vertical.as_ref().map(|piece| piece.after(offset)));
-                let shaking =
-                    Shaking { horizontal: &horizontal, vertical: vertical.as_ref().map(|piece| piece as _), support: None };
-                let duration = end - self.time;
-                if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
-                    let mut both = Both(watcher, &mut self.shocks);
-                    let ended = self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut both);
-                    ended.map_err(|stopped| stopped.after(self.time))?;
+            if let Some(pieces) = &self.pieces {
+                let (offset, duration) = (self.time - start, end - self.time);
+                if pieces.holds && self.machine.waits(&self.state, duration) {
+                    self.machine.stay(&mut self.state, pieces.accelerations(offset, duration), duration);
+                } else {
+                    let pieces = pieces.after(offset);
+                    let shaking = pieces.shaking();
+                    if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
+                        let mut both = Both(watcher, &mut self.shocks);
+                        let ended =
+                            self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut both);
+                        ended.map_err(|stopped| stopped.after(self.time))?;
+                    }
                 }
             }
             self.time = end;
@@ -201,7 +234,7 @@ impl<'a> Plant<'a> {
 
     /// Where it is.
     pub fn whereabouts(&mut self) -> Whereabouts {
-        self.posture.follow(&self.machine, &self.state.motion);
+        self.places.follow(&mut self.posture, &self.machine, &self.state.motion);
         let wheels = &self.state.device.wheels;
         Whereabouts {
             time: self.time,
@@ -216,7 +249,7 @@ impl<'a> Plant<'a> {
 
     /// What perfect sensors would read.
     pub fn truth(&mut self) -> Truth {
-        self.posture.follow(&self.machine, &self.state.motion);
+        self.places.follow(&mut self.posture, &self.machine, &self.state.motion);
         self.places.truth(&self.machine, &self.state, &self.posture, self.shocks.at(self.time))
     }
 }

@@ -32,23 +32,10 @@ pub struct Posture {
     pub configuration: AnyConfiguration<f64>,
     /// sin θ and cos θ.
     tilt: (f64, f64),
-}
-
-impl Posture {
-    /// That of `motion`.
-    pub fn of(machine: &HybridSystem<f64>, motion: &BlockState<f64>) -> Posture {
-        let BlockState { side, rotation, .. } = *motion;
-        let configuration = machine.body.configuration(side.unit(), rotation);
-        Posture { side, rotation, configuration, tilt: math::sin_cos(rotation) }
-    }
-
-    /// Takes that of `motion`, if it is another one.
-    #[inline]
-    pub fn follow(&mut self, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
-        if self.rotation.to_bits() != motion.rotation.to_bits() || self.side != motion.side {
-            *self = Posture::of(machine, motion);
-        }
-    }
+    /// c and s of [`Places::truth`].
+    arm: (f64, f64),
+    /// Travel of the rack, m.
+    travel: f64,
 }
 
 impl Places {
@@ -62,18 +49,33 @@ impl Places {
         }
     }
 
+    /// The posture of `motion`.
+    pub fn posture(&self, machine: &HybridSystem<f64>, motion: &BlockState<f64>) -> Posture {
+        let BlockState { side, rotation, .. } = *motion;
+        let configuration = machine.body.configuration(side.unit(), rotation);
+        let standing = self.standing_travel[usize::from(side == Sign::Negative)];
+        let travel = machine.body.travel(side.unit(), &configuration) - standing;
+        let (across, along) = machine.body.factors(&configuration);
+        let arm = (-across / self.frequency_squared, -along / self.frequency_squared);
+        Posture { side, rotation, configuration, tilt: math::sin_cos(rotation), arm, travel: travel * self.size }
+    }
+
+    /// Makes `posture` that of `motion`, if it is another one.
+    #[inline]
+    pub fn follow(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
+        if posture.rotation.to_bits() != motion.rotation.to_bits() || posture.side != motion.side {
+            *posture = self.posture(machine, motion);
+        }
+    }
+
     /// Truth of a plant in `state`, and so in this `posture`, with the acceleration of a shock (`shock`, rad/s²) on top.
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
     /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
     pub fn truth(&self, machine: &HybridSystem<f64>, state: &HybridState<f64>, posture: &Posture, shock: f64) -> Truth {
-        let BlockState { side, velocity, .. } = state.motion;
-        let configuration = &posture.configuration;
-        let standing = self.standing_travel[usize::from(side == Sign::Negative)];
-        let travel = machine.body.travel(side.unit(), configuration) - standing;
-        let (across, along) = machine.body.factors(configuration);
-        let (c, s) = (-across / self.frequency_squared, -along / self.frequency_squared);
-        let acceleration = machine.acceleration_now(state, configuration) + shock;
+        let velocity = state.motion.velocity;
+        let (c, s) = posture.arm;
+        let acceleration = machine.acceleration_now(state, &posture.configuration) + shock;
         let square = velocity * velocity;
         let ground = [state.ground[0] * GRAVITY, GRAVITY * (1.0 + state.ground[1])];
         let horizontal = ground[0] + self.size * (c * acceleration + s * square);
@@ -83,7 +85,7 @@ impl Places {
             rate: velocity,
             block: [horizontal * cosine - vertical * sine, horizontal * sine + vertical * cosine],
             ground,
-            travel: travel * self.size,
+            travel: posture.travel,
         }
     }
 }

@@ -31,12 +31,23 @@ impl<S: Real> SumSegment<S> {
     pub fn after(&self, delay: S) -> Self {
         match self {
             SumSegment::Single(AnySegment::Quiet) => SumSegment::QUIET,
-            SumSegment::Single(segment) => match line(delay, segment) {
-                Some(line) => SumSegment::Single(AnySegment::Linear(line)),
-                None => SumSegment::Several(vec![(delay, *segment)]),
-            },
+            SumSegment::Single(AnySegment::Linear(line)) => SumSegment::Single(AnySegment::Linear(line.after(delay))),
+            SumSegment::Single(segment) => SumSegment::Several(vec![(delay, *segment)]),
             SumSegment::Several(parts) => {
                 SumSegment::Several(parts.iter().map(|(offset, part)| (*offset + delay, *part)).collect())
+            }
+        }
+    }
+
+    /// Acceleration at `time` (s) of the sum [after](SumSegment::after) `delay` (s), to the same bits, without making it.
+    #[inline]
+    pub fn acceleration_after(&self, delay: S, time: S) -> S {
+        match self {
+            SumSegment::Single(AnySegment::Quiet) => SumSegment::QUIET.acceleration(time),
+            SumSegment::Single(AnySegment::Linear(line)) => line.after(delay).acceleration(time),
+            SumSegment::Single(segment) => S::ZERO + segment.acceleration(delay + time),
+            SumSegment::Several(parts) => {
+                parts.iter().fold(S::ZERO, |sum, (offset, part)| sum + part.acceleration(*offset + delay + time))
             }
         }
     }
