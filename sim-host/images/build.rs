@@ -47,7 +47,9 @@ fn build(root: &Path, out: &Path) -> Result<Vec<u8>, String> {
     let target = out.join("firmware");
     let mut command = cargo::cargo_build(&root.join("firmware"));
     command.args(["--locked", "--release", "--no-default-features", "--features", "board-qemu", "--target-dir"]).arg(&target);
-    let output = command.env("CARGO_PROFILE_RELEASE_STRIP", "symbols").stdin(Stdio::null()).output();
+    // Nobody debugs it.
+    command.env("CARGO_PROFILE_RELEASE_DEBUG", "0").env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
+    let output = command.stdin(Stdio::null()).output();
     let output = output.map_err(|error| format!("cargo: {error}"))?;
     if !output.status.success() {
         let errors = String::from_utf8_lossy(&output.stderr).into_owned();

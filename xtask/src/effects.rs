@@ -28,8 +28,8 @@ const STEPS: [f64; 2] = [1e-3, 5e-4];
 /// Runs of which the fastest counts.
 const REPETITIONS: u32 = 7;
 
-/// All features of the program but `effects`.
-const BARE: &[&str] = &["--no-default-features", "--features", "parquet,png,serial,defmt"];
+/// The default features of the program but `effects`.
+const BARE: &[&str] = &["--no-default-features", "--features", "parquet,png,serial"];
 
 /// The scene, from the root.
 const SCENE: &str = "docs/effects-cost.toml";

@@ -8,14 +8,14 @@ use crate::{
 };
 use std::{fs, path::Path, process::Command};
 
-/// Installs the program by the README's first command and runs the README's other ones in an empty folder, without cargo.
+/// Installs the program by the README's first command, with all features, and runs the README's other ones in an empty folder, without cargo.
 ///
 /// # Errors
 /// If a command does not end well.
 pub fn try_installed(root: &Path) -> Result<(), Stop> {
     tools::need_emulator()?;
     let (place, folder) = (root.join("target/installed"), root.join("target/installed-try"));
-    let mut install = cargo(root, &["install", "--locked", "--force", "--path", "sim-host/cli", "--root"]);
+    let mut install = cargo(root, &["install", "--locked", "--force", "--path", "sim-host/cli", "--features", "full", "--root"]);
     // Built where everything else is.
     done(install.arg(&place).arg("--target-dir").arg(target_folder(root)))?;
     empty(&folder)?;
@@ -51,7 +51,7 @@ pub fn deb(root: &Path) -> Result<(), Stop> {
     if !answers("cargo-deb", &["--version"]) {
         return Err(Stop::usage("cargo-deb is missing: cargo install --locked cargo-deb"));
     }
-    done(&mut cargo(root, &["build", "--locked", "--profile", "dist", "--package", "sprag-cli"]))?;
+    done(&mut cargo(root, &["build", "--locked", "--profile", "dist", "--package", "sprag-cli", "--features", "full"]))?;
     let (sprag, folder) = (target_folder(root).join("dist/sprag"), root.join("target/deb"));
     empty(&folder)?;
     done(Command::new(&sprag).args(["manual", "--quiet"]).arg(folder.join("man")))?;

@@ -23,6 +23,9 @@ const EXHAUSTIVE: Passed = Passed {
 /// The part of the name that all these tests have in common.
 const EXHAUSTIVE_NAME: &str = "exhaustive::every_";
 
+/// All features of the command, in the words of a build of the workspace.
+const FULL: &str = "sprag-cli/full";
+
 /// Runs every check; where `fuzz_seconds` are given, those too that have passed with the same sources before, the installed program, and each
 /// fuzz target for so long.
 ///
@@ -50,7 +53,9 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             Beside::start(&mut cargo_in(root, web::BINDINGS, &["build", "--locked"])),
         ])
         .collect::<Result<_, Stop>>()?;
-    steps.step("lints, host", || done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"])))?;
+    steps.step("lints, host", || {
+        done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--features", FULL, "--", "-D", "warnings"]))
+    })?;
     // Not the tests: they are of the whole program.
     steps.step("lints, parts of host", || {
         ["", "effects"].iter().try_for_each(|features| {
@@ -58,7 +63,9 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
     })?;
-    steps.step("documentation", || done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings")))?;
+    steps.step("documentation", || {
+        done(cargo(root, &["doc", "--workspace", "--no-deps", "--features", FULL]).env("RUSTDOCFLAGS", "-D warnings"))
+    })?;
     steps.step("rest of board's lints and documentation, of bindings", || others.into_iter().try_for_each(Beside::wait))?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;

@@ -110,7 +110,8 @@ pub fn build_bench() -> Result<PathBuf, DeviceError> {
 pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<PathBuf, DeviceError> {
     let failed = |reason: String| DeviceError::Build(reason);
     if !folder.join("Cargo.toml").is_file() {
-        return Err(failed(format!("{} is not there; name an image by --firmware", folder.display())));
+        let reason = "is not there; name an image by --firmware, or build sprag with --features full";
+        return Err(failed(format!("{} {reason}", folder.display())));
     }
     let mut cargo = sprag_images::cargo_build(folder);
     cargo.args(arguments);

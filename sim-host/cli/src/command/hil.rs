@@ -35,7 +35,7 @@ use crate::board::report::{DeviceSummary, costs, device_ticks};
     sprag hil scenes/controller.toml --qemu --log info --set controller.law=sign-table\n  \
     sprag hil scenes/controller.toml --board-image\n  \
     sprag hil scenes/controller.toml --port /dev/ttyUSB0\n\n\
-    The scene is one for `sprag loop`. --qemu starts the emulator itself, with the firmware that is inside this program; --board-image builds the firmware as it goes to the board, from the clone that this program was built from, and runs it between \
+    The scene is one for `sprag loop`. --qemu starts the emulator itself, with the firmware that is inside this program or that it builds; --board-image builds the firmware as it goes to the board, from the clone that this program was built from, and runs it between \
     models of the board's parts, in some minutes. The device gets its settings from the scene. Writes what `sprag loop` \
     writes, the host's own loop as the thick line (the dashed one is the ideal pair), and device.csv with every tick of the device. However \
     it ends, the device is detached: a board continues with its own sensors and the settings in its flash. Exit code 1 where a decision is \
