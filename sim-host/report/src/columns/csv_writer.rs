@@ -3,8 +3,11 @@
 use std::fmt::Write as _;
 use std::io::Write;
 
+use csv::StringRecord;
+
 use super::column::Column;
 use super::error::TableError;
+use super::number_text::push_number;
 use super::table::RowWriter;
 use super::value::Value;
 
@@ -13,7 +16,8 @@ pub struct CsvWriter<W: Write> {
     columns: Vec<Column>,
     table: csv::Writer<W>,
     rows: u64,
-    /// A field in the making.
+    /// A row in the making, and its last field: whole rows take half as long as fields.
+    row: StringRecord,
     field: String,
 }
 
@@ -30,7 +34,7 @@ impl<W: Write> CsvWriter<W> {
 
     /// Continues `out`, which holds the titles and any number of rows.
     pub fn resumed(columns: Vec<Column>, out: W) -> CsvWriter<W> {
-        CsvWriter { columns, table: csv::Writer::from_writer(out), rows: 0, field: String::new() }
+        CsvWriter { columns, table: csv::Writer::from_writer(out), rows: 0, row: StringRecord::new(), field: String::new() }
     }
 
     /// Hands all rows so far to the writer.
@@ -57,18 +61,18 @@ impl<W: Write> RowWriter for CsvWriter<W> {
         if values.len() != self.columns.len() {
             return Err(TableError::WrongLength { row: self.rows, found: values.len(), expected: self.columns.len() });
         }
+        self.row.clear();
         for (column, value) in self.columns.iter().zip(values) {
             self.field.clear();
-            // Writing into a string does not fail.
-            let _ = match column.taken(*value, self.rows)? {
-                Value::Number(number) => write!(self.field, "{number:?}"),
-                Value::Count(count) => write!(self.field, "{count}"),
-                Value::Text(text) => self.field.write_str(text),
-                Value::Nothing => Ok(()),
-            };
-            self.table.write_field(&self.field)?;
+            match column.taken(*value, self.rows)? {
+                Value::Number(number) => push_number(&mut self.field, number),
+                // Writing into a string does not fail.
+                Value::Count(count) => _ = write!(self.field, "{count}"),
+                Value::Text(text) => self.field.push_str(text),
+                Value::Nothing => {}
+            }
+            self.row.push_field(&self.field);
         }
-        // Ends the row.
-        Ok(self.table.write_record(None::<&[u8]>)?)
+        Ok(self.table.write_byte_record(self.row.as_byte_record())?)
     }
 }

@@ -10,6 +10,7 @@ mod csv_writer;
 mod error;
 mod fields;
 mod metadata;
+mod number_text;
 #[cfg_attr(not(feature = "parquet"), path = "no_parquet_reader.rs")]
 mod parquet_reader;
 #[cfg_attr(not(feature = "parquet"), path = "no_parquet_writer.rs")]

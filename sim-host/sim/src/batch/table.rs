@@ -141,7 +141,7 @@ impl CaseColumns {
     /// [`TableError::Value`] names the place, the column, the value and what it may be.
     pub fn case<'a>(&self, row: &'a StringRecord, place: Place) -> Result<(&'a str, Case), TableError> {
         let [id, geometry, slenderness_deg, device, mass_ratio, restitution, pulse, frequency_ratio, amplitude_ratio, free_time] =
-            self.0.map(|at| row.get(at).unwrap_or_default().trim());
+            self.0.map(|at| trimmed(row.get(at).unwrap_or_default()));
         let number = |column, value: &str, allowed: fn(f64) -> bool, range| match value.parse::<f64>() {
             Ok(number) if number.is_finite() && allowed(number) => Ok(number),
             _ => Err(TableError::Value { place, column, value: value.to_owned(), range }),
@@ -164,6 +164,14 @@ impl CaseColumns {
         };
         Ok((id, case))
     }
+}
+
+/// `text` without spaces around it; most have none, and `trim` looks at characters.
+#[inline]
+fn trimmed(text: &str) -> &str {
+    let plain = |byte: Option<&u8>| byte.is_none_or(u8::is_ascii_graphic);
+    let bytes = text.as_bytes();
+    if plain(bytes.first()) && plain(bytes.last()) { text } else { text.trim() }
 }
 
 fn choice<T: Copy>(
