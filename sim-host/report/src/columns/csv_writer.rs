@@ -7,7 +7,7 @@ use csv::StringRecord;
 
 use super::column::Column;
 use super::error::TableError;
-use super::number_text::push_number;
+use super::number_text::NumberText;
 use super::table::RowWriter;
 use super::value::Value;
 
@@ -16,9 +16,10 @@ pub struct CsvWriter<W: Write> {
     columns: Vec<Column>,
     table: csv::Writer<W>,
     rows: u64,
-    /// A row in the making, and its last field: whole rows take half as long as fields.
+    /// A row in the making: whole ones take half as long as fields.
     row: StringRecord,
-    field: String,
+    number: NumberText,
+    count: String,
 }
 
 impl<W: Write> CsvWriter<W> {
@@ -34,7 +35,14 @@ impl<W: Write> CsvWriter<W> {
 
     /// Continues `out`, which holds the titles and any number of rows.
     pub fn resumed(columns: Vec<Column>, out: W) -> CsvWriter<W> {
-        CsvWriter { columns, table: csv::Writer::from_writer(out), rows: 0, row: StringRecord::new(), field: String::new() }
+        CsvWriter {
+            columns,
+            table: csv::Writer::from_writer(out),
+            rows: 0,
+            row: StringRecord::new(),
+            number: NumberText::default(),
+            count: String::new(),
+        }
     }
 
     /// Hands all rows so far to the writer.
@@ -63,15 +71,18 @@ impl<W: Write> RowWriter for CsvWriter<W> {
         }
         self.row.clear();
         for (column, value) in self.columns.iter().zip(values) {
-            self.field.clear();
-            match column.taken(*value, self.rows)? {
-                Value::Number(number) => push_number(&mut self.field, number),
-                // Writing into a string does not fail.
-                Value::Count(count) => _ = write!(self.field, "{count}"),
-                Value::Text(text) => self.field.push_str(text),
-                Value::Nothing => {}
-            }
-            self.row.push_field(&self.field);
+            let field = match column.taken(*value, self.rows)? {
+                Value::Number(number) => self.number.of(number),
+                Value::Count(count) => {
+                    self.count.clear();
+                    // Writing into a string does not fail.
+                    let _ = write!(self.count, "{count}");
+                    &self.count
+                }
+                Value::Text(text) => text,
+                Value::Nothing => "",
+            };
+            self.row.push_field(field);
         }
         Ok(self.table.write_byte_record(self.row.as_byte_record())?)
     }

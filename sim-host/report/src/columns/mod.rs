@@ -27,6 +27,7 @@ pub use csv_writer::CsvWriter;
 pub use error::TableError;
 pub use fields::{FieldTable, Fields};
 pub use metadata::{Metadata, metadata_of};
+pub use number_text::NumberText;
 pub use parquet_reader::{ParquetTexts, parquet_text, read_parquet};
 pub use parquet_writer::ParquetWriter;
 pub use table::{RowWriter, Table, write_csv, write_parquet};

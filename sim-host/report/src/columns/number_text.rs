@@ -5,13 +5,24 @@ use std::fmt::Write as _;
 /// Lowest bits of a mantissa. Below 1e7 a number that lies halfway between two texts, of which not everybody takes the same, has 18 of zero.
 const LAST_BITS: u64 = (1 << 16) - 1;
 
-/// Writes `number` behind `text`, as `{:?}` does and in a fifth of its time for most numbers.
-pub fn push_number(text: &mut String, number: f64) {
-    if (1e-4..1e7).contains(&number.abs()) && number.to_bits() & LAST_BITS != 0 {
-        text.push_str(zmij::Buffer::new().format_finite(number));
-    } else {
+/// Texts of numbers, one at a time.
+#[derive(Default)]
+pub struct NumberText {
+    quick: zmij::Buffer,
+    other: String,
+}
+
+impl NumberText {
+    /// The text of `number`: that of `{:?}`, in a fifth of its time for most numbers.
+    #[inline]
+    pub fn of(&mut self, number: f64) -> &str {
+        if (1e-4..1e7).contains(&number.abs()) && number.to_bits() & LAST_BITS != 0 {
+            return self.quick.format_finite(number);
+        }
+        self.other.clear();
         // Writing into a string does not fail.
-        let _ = write!(text, "{number:?}");
+        let _ = write!(self.other, "{number:?}");
+        &self.other
     }
 }
 
@@ -21,11 +32,8 @@ mod tests {
 
     #[test]
     fn numbers_have_the_digits_that_rust_gives_them() {
-        let same = |number: f64| {
-            let mut text = String::from("x");
-            push_number(&mut text, number);
-            assert_eq!(text, format!("x{number:?}"));
-        };
+        let mut text = NumberText::default();
+        let mut same = |number: f64| assert_eq!(text.of(number), format!("{number:?}"));
         for number in [0.0, -0.0, 1.0, 0.1, -2.5, 1e-4, 9.999e-5, 1e16, 5e-324, f64::MAX, f64::INFINITY, f64::NAN] {
             same(number);
         }

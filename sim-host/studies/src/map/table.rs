@@ -1,10 +1,8 @@
 //! A map as a table: one row a cell and device.
 
-use std::io::Write as _;
-
 use csv::StringRecord;
 use sprag_ensemble::pulsed::PulseResult;
-use sprag_report::columns::{Column, TableError};
+use sprag_report::columns::{Column, NumberText, TableError};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::csv_field::quoted;
 
@@ -64,14 +62,15 @@ impl Labels {
             out.push(b',');
             out.extend_from_slice(label.as_bytes());
         }
-        // Memory takes every write.
-        _ = if result.outcome.overturned() {
-            writeln!(out, ",,")
-        } else if result.peak_acceleration.is_nan() {
-            writeln!(out, ",{:?},", result.peak_rotation)
-        } else {
-            writeln!(out, ",{:?},{:?}", result.peak_rotation, result.peak_acceleration)
-        };
+        let PulseResult { outcome, peak_rotation, peak_acceleration } = *result;
+        let mut text = NumberText::default();
+        for peak in [peak_rotation, peak_acceleration] {
+            out.push(b',');
+            if !outcome.overturned() && !peak.is_nan() {
+                out.extend_from_slice(text.of(peak).as_bytes());
+            }
+        }
+        out.push(b'\n');
     }
 
     /// What row number `row` says.
