@@ -62,7 +62,7 @@ pub fn run(root: &Path) -> Result<(), Stop> {
 fn measure(root: &Path, elf: &Path, log: Option<&str>, set: &[&str]) -> Result<(u32, u32), Stop> {
     let folder = elf.with_extension("hil");
     let mut command =
-        cargo(root, &["run", "--release", "--quiet", "--features", "full", "--", "hil", SCENE, "--qemu", "--firmware"]);
+        cargo(root, &["run", "--release", "--quiet", "--features", "defmt", "--", "hil", SCENE, "--qemu", "--firmware"]);
     command.arg(elf).arg("--out").arg(&folder).arg("--overwrite");
     if let Some(log) = log {
         command.args(["--log", log]);

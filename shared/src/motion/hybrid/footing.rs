@@ -2,7 +2,7 @@
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
+use crate::drivetrain::clutch_state::Coupling;
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
@@ -44,26 +44,23 @@ impl<S: Real> HybridSystem<S> {
     /// [`HybridSystem::advance`], which is to be called where it answers `false`.
     #[inline]
     pub fn stands_through(&self, footing: &Footing<S>, state: &mut HybridState<S>, shaking: Shaking<'_, S>, duration: S) -> bool {
-        let stands = self.waits(state, duration) && footing.holds(shaking, duration);
-        if stands {
-            self.stay(state, shaking.at(duration), duration);
+        if !self.waits(state, duration) {
+            return false;
         }
-        stands
+        let Some(last) = footing.holds(shaking, duration) else { return false };
+        self.stay(state, last, duration);
+        true
     }
 
     /// Whether the block stands, and nothing of its device will move for `duration` (s) unless the block does.
     #[inline]
     pub fn waits(&self, state: &HybridState<S>, duration: S) -> bool {
-        let waits = |wheel: &FlywheelState<S>| {
+        let waits = state.device.wheels.iter().all(|wheel| {
             wheel.spin == S::ZERO
                 && matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Viscous)
                 && (wheel.pending < S::ZERO || wheel.pending > duration)
-        };
-        state.motion.phase == Phase::Rest
-            && waits(&state.device.wheels[0])
-            && waits(&state.device.wheels[1])
-            && self.transmission.parameters.rise_time <= S::ZERO
-            && duration > S::ZERO
+        });
+        state.motion.phase == Phase::Rest && waits && self.transmission.parameters.rise_time <= S::ZERO && duration > S::ZERO
     }
 
     /// Lets `duration` (s) pass for a block that [`HybridSystem::waits`] on ground that [`Footing::holds`], up to where the ground has the
@@ -76,8 +73,8 @@ impl<S: Real> HybridSystem<S> {
 }
 
 impl<S: Real> Footing<S> {
-    /// Whether `duration` (s) of a ground segment certainly lifts no block that stands.
-    pub fn holds(&self, shaking: Shaking<'_, S>, duration: S) -> bool {
+    /// The accelerations at the end of `duration` (s) of a ground segment, if that certainly lifts no block that stands.
+    pub fn holds(&self, shaking: Shaking<'_, S>, duration: S) -> Option<Accelerations<S>> {
         let (first, last) = (shaking.at(S::ZERO), shaking.at(duration));
         let bow = |curvature: S| curvature * duration * duration * S::of(0.125);
         let push = first[0].abs().larger(last[0].abs()) + bow(shaking.horizontal.curvature_bound());
@@ -89,6 +86,6 @@ impl<S: Real> Footing<S> {
         if let Some(support) = shaking.support {
             push = push + self.support * (first[2].abs().larger(last[2].abs()) + bow(support.curvature_bound()));
         }
-        push <= S::of(CERTAIN) * self.weight * (S::ONE + lift)
+        (push <= S::of(CERTAIN) * self.weight * (S::ONE + lift)).then_some(last)
     }
 }

@@ -56,7 +56,13 @@ pub fn for_emulator(log: Option<&str>) -> Result<Image, DeviceError> {
         return Ok(Image::Inside(file.into_temp_path()));
     }
     let features = if log.is_some() { "board-qemu,log" } else { "board-qemu" };
-    build_in(&folder(), &["--release", "--no-default-features", "--features", features], log).map(Image::File)
+    let built = build_in(&folder(), &["--release", "--no-default-features", "--features", features], log);
+    built.map(Image::File).map_err(|error| match (error, log) {
+        (DeviceError::Build(reason), None) => {
+            DeviceError::Build(format!("{reason}; with the feature `images` it is inside sprag"))
+        }
+        (error, _) => error,
+    })
 }
 
 /// A firmware's ELF file.
@@ -110,8 +116,7 @@ pub fn build_bench() -> Result<PathBuf, DeviceError> {
 pub fn build_in(folder: &Path, arguments: &[&str], log: Option<&str>) -> Result<PathBuf, DeviceError> {
     let failed = |reason: String| DeviceError::Build(reason);
     if !folder.join("Cargo.toml").is_file() {
-        let reason = "is not there; name an image by --firmware, or build sprag with --features full";
-        return Err(failed(format!("{} {reason}", folder.display())));
+        return Err(failed(format!("{} is not there; name an image by --firmware", folder.display())));
     }
     let mut cargo = sprag_images::cargo_build(folder);
     cargo.args(arguments);

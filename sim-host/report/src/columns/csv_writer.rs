@@ -1,6 +1,5 @@
 //! Rows as CSV.
 
-use std::fmt::Write as _;
 use std::io::Write;
 
 use csv::StringRecord;
@@ -19,7 +18,6 @@ pub struct CsvWriter<W: Write> {
     /// A row in the making: whole ones take half as long as fields.
     row: StringRecord,
     number: NumberText,
-    count: String,
 }
 
 impl<W: Write> CsvWriter<W> {
@@ -41,7 +39,6 @@ impl<W: Write> CsvWriter<W> {
             rows: 0,
             row: StringRecord::new(),
             number: NumberText::default(),
-            count: String::new(),
         }
     }
 
@@ -73,12 +70,7 @@ impl<W: Write> RowWriter for CsvWriter<W> {
         for (column, value) in self.columns.iter().zip(values) {
             let field = match column.taken(*value, self.rows)? {
                 Value::Number(number) => self.number.of(number),
-                Value::Count(count) => {
-                    self.count.clear();
-                    // Writing into a string does not fail.
-                    let _ = write!(self.count, "{count}");
-                    &self.count
-                }
+                Value::Count(count) => self.number.of_count(count),
                 Value::Text(text) => text,
                 Value::Nothing => "",
             };

@@ -1,6 +1,6 @@
 //! Numbers as text: the fewest digits that read back to the same f64.
 
-use std::fmt::Write as _;
+use std::fmt::{Arguments, Write as _};
 
 /// Lowest bits of a mantissa. Below 1e7 a number that lies halfway between two texts, of which not everybody takes the same, has 18 of zero.
 const LAST_BITS: u64 = (1 << 16) - 1;
@@ -19,9 +19,18 @@ impl NumberText {
         if (1e-4..1e7).contains(&number.abs()) && number.to_bits() & LAST_BITS != 0 {
             return self.quick.format_finite(number);
         }
+        self.written(format_args!("{number:?}"))
+    }
+
+    /// The text of `count`.
+    pub fn of_count(&mut self, count: u64) -> &str {
+        self.written(format_args!("{count}"))
+    }
+
+    fn written(&mut self, text: Arguments<'_>) -> &str {
         self.other.clear();
         // Writing into a string does not fail.
-        let _ = write!(self.other, "{number:?}");
+        let _ = self.other.write_fmt(text);
         &self.other
     }
 }

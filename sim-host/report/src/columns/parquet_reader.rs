@@ -10,6 +10,7 @@ use parquet::record::reader::RowIter;
 
 use super::column::Column;
 use super::error::TableError;
+use super::number_text::NumberText;
 use super::table::RowWriter;
 use super::value::Value;
 
@@ -43,6 +44,7 @@ pub fn read_parquet(file: File, columns: &[Column], writer: &mut dyn RowWriter) 
 pub struct ParquetTexts {
     pub(super) titles: StringRecord,
     rows: RowIter<'static>,
+    number: NumberText,
     /// Rows of the file.
     pub length: u64,
     /// Rows that are read.
@@ -60,7 +62,13 @@ impl ParquetTexts {
         let file = reader.metadata().file_metadata();
         let titles = file.schema().get_fields().iter().map(|field| field.name()).collect::<Vec<_>>().into();
         let length = u64::try_from(file.num_rows()).unwrap_or(0);
-        Ok(ParquetTexts { titles, rows: RowIter::from_file_into(Box::new(reader)), length, read: 0 })
+        Ok(ParquetTexts {
+            titles,
+            rows: RowIter::from_file_into(Box::new(reader)),
+            number: NumberText::default(),
+            length,
+            read: 0,
+        })
     }
 
     /// Reads the next row, if there is one; numbers are written so that they read back to the same value.
@@ -71,8 +79,8 @@ impl ParquetTexts {
             match field {
                 Field::Null => texts.push_field(""),
                 Field::Str(text) => texts.push_field(text),
-                Field::Double(number) => texts.push_field(&format!("{number:?}")),
-                Field::Float(number) => texts.push_field(&format!("{:?}", f64::from(*number))),
+                Field::Double(number) => texts.push_field(self.number.of(*number)),
+                Field::Float(number) => texts.push_field(self.number.of(f64::from(*number))),
                 other => texts.push_field(&other.to_string()),
             }
         }

@@ -169,9 +169,9 @@ impl<'a> Plant<'a> {
         let horizontal = self.segment();
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
         let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
-        let horizontally = horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to());
-        let mut pieces = Pieces { horizontal: horizontally, vertical: up, holds: false };
-        pieces.holds = horizontal.is_some_and(|segment| self.footing.holds(pieces.shaking(), segment.duration));
+        let along = horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to());
+        let mut pieces = Pieces { horizontal: along, vertical: up, holds: false };
+        pieces.holds = horizontal.is_some_and(|segment| self.footing.holds(pieces.shaking(), segment.duration).is_some());
         self.pieces = Some(pieces);
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, 0.0, self.lightest);

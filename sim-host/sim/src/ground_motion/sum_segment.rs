@@ -39,16 +39,12 @@ impl<S: Real> SumSegment<S> {
         }
     }
 
-    /// Acceleration at `time` (s) of the sum [after](SumSegment::after) `delay` (s), to the same bits, without making it.
+    /// Acceleration at `time` (s) of the sum [after](SumSegment::after) `delay` (s): of a line, which most are, without making a sum.
     #[inline]
     pub fn acceleration_after(&self, delay: S, time: S) -> S {
         match self {
-            SumSegment::Single(AnySegment::Quiet) => SumSegment::QUIET.acceleration(time),
             SumSegment::Single(AnySegment::Linear(line)) => line.after(delay).acceleration(time),
-            SumSegment::Single(segment) => S::ZERO + segment.acceleration(delay + time),
-            SumSegment::Several(parts) => {
-                parts.iter().fold(S::ZERO, |sum, (offset, part)| sum + part.acceleration(*offset + delay + time))
-            }
+            _ => self.after(delay).acceleration(time),
         }
     }
 
