@@ -89,7 +89,7 @@ pub fn run(
     let task = desk.task(index, seed, interrupt);
     let (task, error, looped) = match law {
         None => task.answered()?,
-        Some(law) => task.answered_by(|| law.clone())?,
+        Some(law) => task.answered_by(|task| task.driver_by(law.clone()))?,
     };
     let mut report = LoopReport::of_answer(&task, error, looped)?;
     if law.is_some() {

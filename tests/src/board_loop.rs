@@ -208,8 +208,8 @@ impl Driver for BoardDriver {
         Decision { command: self.engaged, ..self.last }
     }
 
-    fn ideal(&mut self, plant: &Whereabouts) -> Wish {
-        self.own.ideal(plant)
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish {
+        self.own.ideal(plant, asked)
     }
 
     fn log(&self) -> Vec<Entry> {

@@ -129,7 +129,7 @@ impl<'a> Trial<'a> {
         let clock = task.clock();
         let prelude = (clock.prelude / clock.period).round() as usize;
         let settings = task.settings().unwrap();
-        let own = task.driver(task.controller.clutch_law()).unwrap();
+        let own = task.driver().unwrap();
         let emulator = match self.bench {
             Some(bench) => Emulator::between_models(bench, self.image),
             None => Emulator::start(Image::File(self.image.to_owned()), self.way, None),

@@ -41,7 +41,7 @@ impl Tape {
         let interrupt = Interrupt::default();
         let task = scene.task(scene.pairs[0], 1, &interrupt);
         let clock = task.clock();
-        let mut heard = Listener { own: task.driver(task.controller.clutch_law()).unwrap(), samples: Vec::new() };
+        let mut heard = Listener { own: task.driver().unwrap(), samples: Vec::new() };
         let mut extremes = Extremes::default();
         let ending = task.run_with(&mut heard, &mut (), &mut extremes, &mut ()).unwrap();
         assert!(ending.motion.impacts >= 3 && ending.motion.phase == Standing::Rest, "{ending:?}");
@@ -83,8 +83,8 @@ impl Driver for Listener {
         self.own.tick(sample, circumstances)
     }
 
-    fn ideal(&mut self, plant: &Whereabouts) -> Wish {
-        self.own.ideal(plant)
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish {
+        self.own.ideal(plant, asked)
     }
 
     fn log(&self) -> Vec<Entry> {

@@ -24,7 +24,7 @@ impl Law for OutwardOnly {
 /// Peak |θ|/α in closed loop with `law`.
 fn peak_with(law: OutwardOnly, motion: &Motion, variant: &Variant) -> f64 {
     with_loop(motion, variant, &Conditions::new(None, &Interrupt::default()), |task| {
-        let mut driver = task.driver(law)?;
+        let mut driver = task.driver_by(law)?;
         let mut extremes = Extremes::default();
         task.run_with(&mut *driver, &mut (), &mut extremes, &mut ())?;
         Ok(extremes.peaks.rotation / task.scene.block.slenderness())

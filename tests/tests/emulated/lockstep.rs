@@ -36,7 +36,7 @@ fn run((bench, image): &(PathBuf, PathBuf), scene: &LoopScene, reset: Option<f64
     let interrupt = Interrupt::default();
     let task = scene.task(scene.pairs[0], scene.controller.sensors.seed(), &interrupt);
     let clock = task.clock();
-    let own = task.driver(task.controller.clutch_law()).unwrap();
+    let own = task.driver().unwrap();
     let mut driver = BoardDriver::new(bench, image, &task.settings().unwrap(), own);
     driver.reset_at = reset.map(|time| ((clock.prelude + time) / clock.period).round() as u32);
     let (mut seen, mut extremes) = (Vec::new(), Extremes::default());

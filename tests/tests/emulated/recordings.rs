@@ -57,7 +57,7 @@ impl Flight {
         let task = scene.task(scene.pairs[0], scene.controller.sensors.seed(), &interrupt);
         let clock = task.clock();
         let settings = task.settings().unwrap();
-        let own = task.driver(task.controller.clutch_law()).unwrap();
+        let own = task.driver().unwrap();
         let mut session = Session::new(line.clone());
         parameters::write(&mut session, &settings, true).unwrap();
         let mut driver = DeviceDriver::attach(session, &settings, own).unwrap();

@@ -94,7 +94,7 @@ pub fn report(scene: &Scene, faults: &[(String, f64)]) -> Result<LoopReport, Pag
             return LoopReport::of_answer(&task, error, looped);
         }
         let (mut extremes, mut ticks) = (Extremes::default(), Vec::new());
-        let ending = task.run_with(&mut *task.driver(task.controller.clutch_law())?, &mut several, &mut extremes, &mut ticks)?;
+        let ending = task.run_with(&mut *task.driver()?, &mut several, &mut extremes, &mut ticks)?;
         Ok(LoopReport::new(&task, ending, &extremes.peaks, task.ideal()?, ticks))
     };
     run().map_err(PageError::failed)

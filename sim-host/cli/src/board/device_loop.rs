@@ -41,7 +41,7 @@ impl DeviceLoop {
     /// [`DeviceLoopError`]; a device that has gone explains whatever became of the loop.
     pub fn run<L: Line>(task: &LoopTask<'_>, line: L, ideal: DeviceRun) -> Result<DeviceLoop, DeviceLoopError> {
         let settings = task.settings().map_err(LoopFailure::from)?;
-        let own = task.driver(task.controller.clutch_law()).map_err(LoopFailure::from)?;
+        let own = task.driver().map_err(LoopFailure::from)?;
         let mut driver = DeviceDriver::attach(Session::new(line), &settings, own)?;
         let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
         let begun = Instant::now();

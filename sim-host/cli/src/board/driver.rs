@@ -333,8 +333,8 @@ impl<L: Line> Driver for DeviceDriver<L> {
         self.last
     }
 
-    fn ideal(&mut self, plant: &Whereabouts) -> Wish {
-        self.own.ideal(plant)
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish {
+        self.own.ideal(plant, asked)
     }
 
     fn log(&self) -> Vec<Entry> {

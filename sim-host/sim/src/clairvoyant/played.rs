@@ -43,7 +43,7 @@ impl Driver for Played<'_> {
         Decision::before(command)
     }
 
-    fn ideal(&mut self, _plant: &Whereabouts) -> Wish {
+    fn ideal(&mut self, _plant: &Whereabouts, _asked: bool) -> Wish {
         Wish::Release
     }
 

@@ -3,12 +3,13 @@
 //! Between two ticks the plant is integrated, and that errs; what the controller decides of it is part of the loop, so a decision that falls
 //! otherwise for an error of the plant shows in the estimate.
 
-use sprag_shared::control::law::Law;
 use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::error::ParameterError;
 
 use super::LoopTask;
 use super::assemble::LoopFailure;
+use super::driver::Driver;
 use super::plant::Extremes;
 use super::run::{Ending, TickObserver};
 use crate::accuracy::answer::{Comparable, answer};
@@ -52,10 +53,10 @@ impl<T> Comparable for Looped<T> {
 }
 
 impl<'a> LoopTask<'a> {
-    /// Runs the loop by `law`, and shows its ticks to a new `T`.
-    fn looped<T: TickObserver + Default>(&self, law: impl Law + 'static) -> Result<Looped<T>, LoopFailure> {
+    /// Runs the loop with `driver`, and shows its ticks to a new `T`.
+    fn looped<T: TickObserver + Default>(&self, mut driver: Box<dyn Driver>) -> Result<Looped<T>, LoopFailure> {
         let (mut extremes, mut ticks) = (Extremes::default(), T::default());
-        let ending = self.run_with(&mut *self.driver(law)?, &mut (), &mut extremes, &mut ticks)?;
+        let ending = self.run_with(&mut *driver, &mut (), &mut extremes, &mut ticks)?;
         Ok(Looped { ending, extremes, ticks, slenderness: self.scene.block.slenderness() })
     }
 
@@ -65,22 +66,23 @@ impl<'a> LoopTask<'a> {
     /// # Errors
     /// [`LoopFailure`].
     pub fn answered<T: TickObserver + Default>(self) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
-        self.answered_by(|| self.controller.clutch_law())
+        self.answered_by(LoopTask::driver)
     }
 
-    /// [`LoopTask::answered`] with any law, which is made anew for each run.
+    /// [`LoopTask::answered`] with any `driver`, which is made anew for each run.
     ///
     /// # Errors
     /// [`LoopFailure`].
-    pub fn answered_by<T: TickObserver + Default, L: Law + 'static>(
+    pub fn answered_by<T: TickObserver + Default>(
         self,
-        law: impl Fn() -> L,
+        driver: impl Fn(&LoopTask<'a>) -> Result<Box<dyn Driver>, ParameterError>,
     ) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
+        let run = |task: &LoopTask<'a>| task.looped(driver(task)?);
         let Some(level) = self.scene.file.accuracy.level else {
-            let looped = self.looped(law())?;
+            let looped = run(&self)?;
             return Ok((self, None, looped));
         };
-        let closer = |closeness| LoopTask { closeness: Some(closeness), ..self }.looped(law());
+        let closer = |closeness| run(&LoopTask { closeness: Some(closeness), ..self });
         let found: Answer<Looped<T>> = answer(level, closer)?;
         let task = LoopTask { closeness: Some(found.closeness), ..self };
         Ok((task, Some(ErrorReport::of(&found)), found.result))

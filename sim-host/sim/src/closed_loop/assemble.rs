@@ -206,11 +206,20 @@ impl<'a> LoopTask<'a> {
         Settings::of(&controller, &supervision).map_err(unfit)
     }
 
-    /// The controller at power-on.
+    /// The controller by the law of its table, at power-on.
     ///
     /// # Errors
     /// The errors of [`LoopTask::controller`].
-    pub fn driver<L: Law + 'static>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
+    // Compiled here, where it is optimised, and not once more by each who calls it.
+    pub fn driver(&self) -> Result<Box<dyn Driver>, ParameterError> {
+        self.driver_by(self.controller.clutch_law())
+    }
+
+    /// [`LoopTask::driver`] by any `law`.
+    ///
+    /// # Errors
+    /// The errors of [`LoopTask::controller`].
+    pub fn driver_by<L: Law + 'static>(&self, law: L) -> Result<Box<dyn Driver>, ParameterError> {
         Ok(Box::new(Shared::new(self.controller(law)?)))
     }
 
@@ -241,7 +250,7 @@ impl<'a> LoopTask<'a> {
     /// # Errors
     /// [`LoopFailure`].
     pub fn run(&self, watcher: &mut dyn Watcher, observer: &mut dyn TickObserver) -> Result<Ending, LoopFailure> {
-        let mut driver = self.driver(self.controller.clutch_law())?;
+        let mut driver = self.driver()?;
         self.run_with(&mut *driver, &mut (), watcher, observer)
     }
 

@@ -98,8 +98,10 @@ impl Decisions {
     /// For every change of the law the nearest movement of the clutches in the same direction.
     pub fn delays(&self) -> Vec<f64> {
         let nearest = |&(at, to): &(f64, bool)| {
-            let same = self.moved.iter().filter(|moved| moved.1 == to).map(|moved| moved.0 - at);
-            same.filter(|delay| delay.abs() < LONGEST).min_by(|a, b| a.abs().total_cmp(&b.abs()))
+            let near = &self.moved[self.moved.partition_point(|moved| moved.0 - at <= -LONGEST)..];
+            let near = near.iter().take_while(|moved| moved.0 - at < LONGEST);
+            let same = near.filter(|moved| moved.1 == to).map(|moved| moved.0 - at);
+            same.min_by(|a, b| a.abs().total_cmp(&b.abs()))
         };
         self.ideal.iter().filter_map(nearest).collect()
     }

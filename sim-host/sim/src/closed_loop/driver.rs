@@ -16,8 +16,9 @@ pub trait Driver {
     /// One tick.
     fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision;
 
-    /// What the law would want of the plant as it truly is, now and without hysteresis.
-    fn ideal(&mut self, plant: &Whereabouts) -> Wish;
+    /// What the law would want of the plant as it truly is, now and without hysteresis. Who is not `asked` keeps up with the plant and gives
+    /// [`Wish::Release`].
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish;
 
     /// What its log holds, oldest first.
     fn log(&self) -> Vec<Entry>;
@@ -47,12 +48,9 @@ impl<L: Law> Driver for Shared<L> {
         self.controller.tick(&mut self.state, sample, circumstances)
     }
 
-    fn ideal(&mut self, plant: &Whereabouts) -> Wish {
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish {
         let (side, ground) = (plant.motion.side, plant.ground.map(|g| g as f32));
-        let (rotation, velocity) = (plant.motion.rotation as f32, plant.motion.velocity as f32);
         let model = &self.controller.model;
-        let push = model.push(side, rotation, velocity, ground);
-        let estimate = Estimate { rotation, velocity, side, push, ground, ..Estimate::default() };
         // The plant's own signs, which know which way a zero goes.
         self.signs = Signs {
             rotation: side,
@@ -64,6 +62,12 @@ impl<L: Law> Driver for Shared<L> {
         let elapsed = f64::from(model.parameters.frequency) * (plant.time - self.time);
         self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
         self.time = plant.time;
+        if !asked {
+            return Wish::Release;
+        }
+        let (rotation, velocity) = (plant.motion.rotation as f32, plant.motion.velocity as f32);
+        let push = model.push(side, rotation, velocity, ground);
+        let estimate = Estimate { rotation, velocity, side, push, ground, ..Estimate::default() };
         self.controller.law.wish(&Situation {
             model,
             estimate,

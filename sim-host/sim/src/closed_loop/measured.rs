@@ -38,7 +38,7 @@ impl LoopTask<'_> {
         let task = Task { interval, ..self.task() };
         let mut watchers = task.watchers(&task.loaded()?)?;
         let mut coils = Commanded { used: CoilUse::default(), period: self.clock().period };
-        let mut driver = self.driver(self.controller.clutch_law())?;
+        let mut driver = self.driver()?;
         let ending = self.run_with(&mut *driver, &mut (), &mut watchers, &mut coils)?;
         watchers.asked.commanded(coils.used);
         let peaks = watchers.peaks;

@@ -41,7 +41,7 @@ pub struct Tick {
     pub sample: Sample,
     /// And said.
     pub decision: Decision,
-    /// What the same law would want of the true motion.
+    /// What the same law would want of the true motion; false of a block that stands, but for observers that [look at rest](TickObserver::looks_at_rest).
     pub ideal: bool,
 }
 
@@ -49,6 +49,11 @@ pub struct Tick {
 pub trait TickObserver {
     /// A tick.
     fn tick(&mut self, tick: &Tick);
+
+    /// Whether it looks at [`Tick::ideal`] of a block that stands, which has no law to follow.
+    fn looks_at_rest(&self) -> bool {
+        false
+    }
 }
 
 /// Nobody.
@@ -60,6 +65,10 @@ impl TickObserver for () {
 impl TickObserver for Vec<Tick> {
     fn tick(&mut self, tick: &Tick) {
         self.push(*tick);
+    }
+
+    fn looks_at_rest(&self) -> bool {
+        true
     }
 }
 
@@ -156,13 +165,13 @@ impl ClosedLoop<'_> {
             let mut circumstances = Circumstances::default();
             self.disturbance.disturb(time, &mut sample, &mut circumstances);
             let decision = driver.tick(&sample, circumstances);
-            let ideal = driver.ideal(&whereabouts) != Wish::Release;
+            let rocks = whereabouts.motion.phase == Phase::Rocking;
+            let ideal = driver.ideal(&whereabouts, rocks || observer.looks_at_rest()) != Wish::Release;
             if whereabouts.motion.rotation.abs() < self.slenderness {
                 fall = None;
             } else if fall.is_none() {
                 fall = Some((faults.len(), phase));
             }
-            let rocks = whereabouts.motion.phase == Phase::Rocking;
             let engaged = whereabouts.engaged[0] || whereabouts.engaged[1];
             decisions.add(Moment { time, rocks, velocity: whereabouts.motion.velocity, ideal, engaged });
             if decision.fault != last_fault {

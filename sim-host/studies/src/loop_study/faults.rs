@@ -90,7 +90,7 @@ pub(super) fn instants(motion: &Motion, variant: &Variant, conditions: &Conditio
 /// One loop with one fault.
 fn inject(variant: &Variant, failing: Failing, from: f64, conditions: &Conditions<'_>) -> Result<FaultResult, StudyError> {
     with_loop(&MOTION, variant, conditions, |task| {
-        let mut driver = task.driver(task.controller.clutch_law())?;
+        let mut driver = task.driver()?;
         let mut disturbance = Injected::new(failing, from);
         let (mut extremes, mut seen) = (Extremes::default(), Seen { from, ..Seen::default() });
         let ending = task.run_with(&mut *driver, &mut disturbance, &mut extremes, &mut seen)?;

@@ -66,7 +66,7 @@ fn peak(
     conditions: &Conditions<'_>,
 ) -> Result<(Outcome, f64), StudyError> {
     with_loop(motion, variant, conditions, |task| {
-        let mut driver = task.driver(task.controller.clutch_law())?;
+        let mut driver = task.driver()?;
         let mut extremes = Extremes::default();
         let ending = match injected {
             Some(mut injected) => task.run_with(&mut *driver, &mut injected, &mut extremes, &mut ())?,
