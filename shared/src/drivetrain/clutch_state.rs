@@ -232,7 +232,13 @@ pub const GUARDS: usize = 5;
 
 impl<S: Real> ModeCoefficients<S> {
     /// Nothing engaged, nothing lost, motion in `direction`.
+    #[expect(
+        clippy::field_reassign_with_default,
+        reason = "made in its place: a copy makes the processor wait for the support that is not there"
+    )]
     pub fn of(direction: Sign) -> ModeCoefficients<S> {
-        ModeCoefficients { direction: direction.unit(), ..ModeCoefficients::default() }
+        let mut law = ModeCoefficients::default();
+        law.direction = direction.unit();
+        law
     }
 }

@@ -76,7 +76,7 @@ struct Pieces {
 
 impl Pieces {
     fn shaking(&self) -> Shaking<'_, f64> {
-        Shaking { horizontal: &self.horizontal, vertical: self.vertical.as_ref().map(|piece| piece as _), support: None }
+        shaking(&self.horizontal, self.vertical.as_ref())
     }
 
     /// Accelerations `duration` (s) after `offset` (s).
@@ -84,12 +84,10 @@ impl Pieces {
         let vertical = self.vertical.as_ref().map_or(0.0, |piece| piece.acceleration_after(offset, duration));
         [self.horizontal.acceleration_after(offset, duration), vertical, 0.0]
     }
+}
 
-    /// From `offset` (s) on.
-    fn after(&self, offset: f64) -> Pieces {
-        let vertical = self.vertical.as_ref().map(|piece| piece.after(offset));
-        Pieces { horizontal: self.horizontal.after(offset), vertical, ..*self }
-    }
+fn shaking<'a>(horizontal: &'a SumSegment<f64>, vertical: Option<&'a SumSegment<f64>>) -> Shaking<'a, f64> {
+    Shaking { horizontal, vertical: vertical.map(|piece| piece as _), support: None }
 }
 
 /// A machine and its place in the ground motion.
@@ -217,8 +215,9 @@ impl<'a> Plant<'a> {
                 if pieces.holds && self.machine.waits(&self.state, duration) {
                     self.machine.stay(&mut self.state, pieces.accelerations(offset, duration), duration);
                 } else {
-                    let pieces = pieces.after(offset);
-                    let shaking = pieces.shaking();
+                    let horizontal = pieces.horizontal.after(offset);
+                    let vertical = pieces.vertical.as_ref().map(|piece| piece.after(offset));
+                    let shaking = shaking(&horizontal, vertical.as_ref());
                     if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
                         let mut both = Both(watcher, &mut self.shocks);
                         let ended =

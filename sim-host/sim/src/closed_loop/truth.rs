@@ -50,6 +50,7 @@ impl Places {
     }
 
     /// The posture of `motion`.
+    #[inline(always)]
     pub fn posture(&self, machine: &HybridSystem<f64>, motion: &BlockState<f64>) -> Posture {
         let BlockState { side, rotation, .. } = *motion;
         let configuration = machine.body.configuration(side.unit(), rotation);
@@ -64,8 +65,13 @@ impl Places {
     #[inline]
     pub fn follow(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
         if posture.rotation.to_bits() != motion.rotation.to_bits() || posture.side != motion.side {
-            *posture = self.posture(machine, motion);
+            self.renew(posture, machine, motion);
         }
+    }
+
+    #[inline(never)]
+    fn renew(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
+        *posture = self.posture(machine, motion);
     }
 
     /// Truth of a plant in `state`, and so in this `posture`, with the acceleration of a shock (`shock`, rad/s²) on top.
@@ -115,7 +121,7 @@ impl Shocks {
     #[inline]
     pub fn at(&self, time: f64) -> f64 {
         // The latest lasts longest.
-        if self.duration <= 0.0 || (time - self.recent[(self.next + 3) % 4].0) / self.duration >= 1.0 {
+        if self.duration <= 0.0 || time - self.recent[(self.next + 3) % 4].0 >= self.duration {
             return 0.0;
         }
         self.sum_at(time)

@@ -62,8 +62,15 @@ impl LowPass {
     }
 
     /// The factors of a free motion over `span` (s): by rows, of value and slope on value and slope.
-    #[inline(always)]
     pub(super) fn transition(&mut self, span: f64) -> [[f64; 2]; 2] {
+        let place = self.place(span);
+        self.remembered[place].transition
+    }
+
+    /// Where the factors over `span` (s) are remembered. Whoever needs them reads them there: a copy on the stack would be read by other
+    /// pairs than it was written by, which a processor waits for.
+    #[inline(always)]
+    fn place(&mut self, span: f64) -> usize {
         let same = SAME_SPAN * span;
         for (place, free) in self.remembered.iter().enumerate() {
             if (free.span - span).abs() <= same {
@@ -71,22 +78,22 @@ impl LowPass {
                 if place == self.oldest {
                     self.oldest = (self.oldest + 1) % REMEMBERED;
                 }
-                return free.transition;
+                return place;
             }
         }
         self.work_out(span)
     }
 
     #[inline(never)]
-    fn work_out(&mut self, span: f64) -> [[f64; 2]; 2] {
+    fn work_out(&mut self, span: f64) -> usize {
         // exp(−σ span) (cos σ span, sin σ span).
         let (sine, cosine) = math::sin_cos(self.decay * span);
         let factor = math::exp(-self.decay * span);
         let (cosine, sine) = (factor * cosine, factor * sine);
-        let transition = [[cosine + sine, sine], [-2.0 * sine, cosine - sine]];
-        self.remembered[self.oldest] = Free { span, transition };
-        self.oldest = (self.oldest + 1) % REMEMBERED;
-        transition
+        let place = self.oldest;
+        self.remembered[place] = Free { span, transition: [[cosine + sine, sine], [-2.0 * sine, cosine - sine]] };
+        self.oldest = (place + 1) % REMEMBERED;
+        place
     }
 
     /// Takes `states` on by `span` (s, not negative) while their inputs go straight from `from` to `to`.
@@ -101,7 +108,8 @@ impl LowPass {
         if span <= 0.0 {
             return;
         }
-        let [[own, across], [back, slope_own]] = self.transition(span);
+        let place = self.place(span);
+        let [[own, across], [back, slope_own]] = &self.remembered[place].transition;
         let steepness = 1.0 / (self.decay * span);
         for axis in 0..AXES {
             // A ramp is followed at its own slope and √2/ω = 1/σ behind; what differs from that dies away.
