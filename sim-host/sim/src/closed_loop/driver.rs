@@ -16,8 +16,8 @@ pub trait Driver {
     /// One tick.
     fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision;
 
-    /// What the law would want of the plant as it truly is, now and without hysteresis. Who is not `asked` keeps up with the plant and gives
-    /// [`Wish::Release`].
+    /// What the law would want of the plant as it truly is, now and without hysteresis. Not `asked`, it only keeps up with the plant, and
+    /// gives [`Wish::Release`].
     fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish;
 
     /// What its log holds, oldest first.

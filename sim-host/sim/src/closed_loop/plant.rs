@@ -75,10 +75,6 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn shaking(&self) -> Shaking<'_, f64> {
-        shaking(&self.horizontal, self.vertical.as_ref())
-    }
-
     /// Accelerations `duration` (s) after `offset` (s).
     fn accelerations(&self, offset: f64, duration: f64) -> Accelerations<f64> {
         let vertical = self.vertical.as_ref().map_or(0.0, |piece| piece.acceleration_after(offset, duration));
@@ -168,9 +164,9 @@ impl<'a> Plant<'a> {
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
         let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
         let along = horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to());
-        let mut pieces = Pieces { horizontal: along, vertical: up, holds: false };
-        pieces.holds = horizontal.is_some_and(|segment| self.footing.holds(pieces.shaking(), segment.duration).is_some());
-        self.pieces = Some(pieces);
+        let holds = |segment: &Segment| self.footing.holds(shaking(&along, up.as_ref()), segment.duration).is_some();
+        let holds = horizontal.is_some_and(holds);
+        self.pieces = Some(Pieces { horizontal: along, vertical: up, holds });
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, 0.0, self.lightest);
     }

@@ -69,6 +69,7 @@ impl Places {
         }
     }
 
+    // The posture is made in its place; one that a call returns would be copied there.
     #[inline(never)]
     fn renew(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
         *posture = self.posture(machine, motion);
