@@ -191,8 +191,7 @@ impl Blocks {
         let passed = if PAIR { Mask::NONE } else { changed & along };
         let changed = changed & !passed;
         if changed.any() {
-            let rates = series.acceleration_off_zero(from_zero);
-            length = zero(&rates[..TERMS - 2], push, plain.end, length, changed);
+            length = zero(series.acceleration_off_zero(), push, plain.end, length, changed);
         }
         // θ̇ is monotone up to here, or grows before it falls.
         let direction = self.outward.sign();
@@ -255,8 +254,7 @@ impl Blocks {
         longest: Number,
     ) -> (Number, Mask, Shape) {
         let nothing = number(0.0);
-        let rates = series.acceleration_off_zero(self.at_zero);
-        let rates = &rates[..TERMS - 2];
+        let rates = series.acceleration_off_zero();
         let start = rates[0] * push;
         self.hard = self.hard | !start.exceeds(nothing);
         let mut length = longest;

@@ -149,14 +149,3 @@ pub fn largest_in_lane<const N: usize>(coefficients: &[Number], lane: usize, end
     let own: [f64; N] = from_fn(|k| coefficients.get(k).map_or(0.0, |c| c.0[lane]));
     largest_magnitude(&own, curvature_bound(&own, end.0), (0.0, own[0]), end, known)
 }
-
-/// The same polynomials without their constant term, divided by t, where `shifted`.
-#[inline(always)]
-pub fn deflated<const N: usize>(coefficients: &[Number; N], shifted: Mask) -> [Number; N] {
-    let mut result = *coefficients;
-    for k in 0..N {
-        let next = if k + 1 < N { coefficients[k + 1] } else { number(0.0) };
-        result[k] = shifted.choose(next, coefficients[k]);
-    }
-    result
-}

@@ -10,7 +10,6 @@ use sprag_shared::math::scalar::Scalar;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::method::motion_series::MotionSeries;
 
-use crate::polynomial::deflated;
 use crate::{Mask, Number, number};
 
 /// Quantities of an equation of motion on the tape.
@@ -23,11 +22,14 @@ pub struct Series<const TERMS: usize> {
     /// Coefficients of ü_g/g about the start of the step; the caller sets it.
     pub ground: [Number; TERMS],
     motion: MotionSeries<Number, TERMS>,
+    /// Coefficients of θ̈, divided by t where it is zero at the start.
+    off_zero: [Number; TERMS],
 }
 
 impl<const TERMS: usize> Default for Series<TERMS> {
     fn default() -> Self {
-        Series { tape: Tape::default(), ground: [number(0.0); TERMS], motion: MotionSeries::default() }
+        let zero = [number(0.0); TERMS];
+        Series { tape: Tape::default(), ground: zero, motion: MotionSeries::default(), off_zero: zero }
     }
 }
 
@@ -64,10 +66,10 @@ impl<const TERMS: usize> Series<TERMS> {
         &self.motion.acceleration[..Self::RATES]
     }
 
-    /// Coefficients of θ̈, divided by t where it is zero at the start; what is beyond [`Self::RATES`] is zero.
+    /// Coefficients of θ̈, divided by t where it is zero at the start.
     #[inline(always)]
-    pub fn acceleration_off_zero(&self, at_zero: Mask) -> [Number; TERMS] {
-        deflated(&self.motion.acceleration, at_zero)
+    pub fn acceleration_off_zero(&self) -> &[Number] {
+        &self.off_zero[..Self::RATES]
     }
 
     /// The series about θ (`rotation`, rad) and θ̇ (`velocity`) of blocks on the positive side; where `at_zero`, θ̈ is zero now because
@@ -86,9 +88,13 @@ impl<const TERMS: usize> Series<TERMS> {
             let node = equation.acceleration(number(1.0), theta, omega, push);
             if k == 0 {
                 node.set_last(at_zero.choose(number(0.0), node.last()));
+            } else {
+                self.off_zero[k - 1] = at_zero.choose(node.last(), self.motion.acceleration[k - 1]);
             }
             self.motion.extend(tape, k, node.last());
         }
+        let last = Self::RATES - 1;
+        self.off_zero[last] = at_zero.choose(number(0.0), self.motion.acceleration[last]);
     }
 
     /// How far the last two terms of θ stay below `tolerance` (rad; Jorba and Zou's two-term rule).
@@ -107,15 +113,20 @@ impl<const TERMS: usize> Series<TERMS> {
 }
 
 /// x to the `exponent` (0 to 1) to about 7 %, for choosing step sizes only: as [`sprag_shared::math::scalar::Real::rough_power`], from the
-/// high halves of the bits, for which registers have conversions.
+/// high halves of the bits, for which registers have conversions to doubles. None has Rust's back, which saturates.
 #[inline(always)]
 fn rough_power(x: Number, exponent: f64) -> Number {
     const ONE: i32 = 0x3ff0_0000;
+    // Added to this, 1.5 × 2⁵², a number loses its fraction, and its low half is the whole number.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
     let mut power = x;
     for value in &mut power.0 {
         let high = (value.to_bits() >> 32) as i32;
-        let scaled = (f64::from(high - ONE) * exponent) as i32 + ONE;
-        *value = f64::from_bits((scaled as u64) << 32);
+        let scaled = f64::from(high - ONE) * exponent;
+        let nearest = (scaled + WHOLE) - WHOLE;
+        let beyond = if nearest.abs() > scaled.abs() { 1.0_f64.copysign(scaled) } else { 0.0 };
+        let towards_zero = (nearest - beyond + WHOLE).to_bits();
+        *value = f64::from_bits((towards_zero + ONE as u64) << 32);
     }
     power
 }
@@ -127,9 +138,12 @@ mod tests {
 
     #[test]
     fn rough_power_is_close_enough_for_a_step_size() {
-        for base in [1e-200, 1e-9, 0.3, 1.0, 7.0, 1e200] {
+        for base in [1e-200_f64, 1e-9, 0.3, 1.0, 7.0, 1e200] {
             for exponent in [1.0 / 15.0, 1.0 / 8.0] {
                 let power = rough_power(number(base), exponent).0[3];
+                let high = (base.to_bits() >> 32) as i32 - 0x3ff0_0000;
+                let converted = (f64::from(high) * exponent) as i32 + 0x3ff0_0000;
+                assert_eq!(power.to_bits(), (converted as u64) << 32, "{base}^{exponent}");
                 assert!((power / math::pow(base, exponent) - 1.0).abs() < 0.07, "{base}^{exponent}: {power}");
             }
         }
