@@ -189,7 +189,15 @@ fn the_page_and_the_tables_are_the_same_on_one_and_on_two_threads() {
     });
     assert_eq!(texts[0], texts[1]);
     let page = &texts[0][0];
-    for words in ["# Device: parts list", "| pinion", "### Why", "### Tried with the chosen clutches", "## Limits", "ISO 54"] {
+    for words in [
+        "# Device: parts list",
+        "| pinion",
+        "### Why",
+        "### Tried with the chosen clutches",
+        "stops at once",
+        "## Limits",
+        "ISO 54",
+    ] {
         assert!(page.contains(words), "{words}: {page}");
     }
     assert!(page.lines().count() < 70, "one page");

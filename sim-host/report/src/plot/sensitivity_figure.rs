@@ -200,8 +200,13 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
         }
     }
     if let Some(quantiles) = lane.quantiles {
-        let inside = quantiles.map(|change| axis.position_px(change.clamp(-axis.limit, axis.limit)));
-        write_quantiles(svg, inside, middle_px, colour);
+        let [low_px, median_px, high_px] = quantiles.map(|change| axis.position_px(change.clamp(-axis.limit, axis.limit)));
+        if quantiles[1].abs() <= axis.limit {
+            write_quantiles(svg, [low_px, median_px, high_px], middle_px, colour);
+        } else {
+            write_range(svg, [low_px, high_px], middle_px, colour);
+            write_beyond(svg, axis, quantiles[1], middle_px, colour);
+        }
     }
     match lane.own {
         Some(OwnMark::Change(change)) if change.abs() <= axis.limit => {
@@ -228,9 +233,13 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
 
 /// Appends the line between the outer quantiles and the disc of the median.
 fn write_quantiles(svg: &mut String, [low_px, median_px, high_px]: [f64; 3], middle_px: f64, colour: Colour) {
+    write_range(svg, [low_px, high_px], middle_px, colour);
+    write_disc(svg, (median_px, middle_px), MEDIAN_PX, colour, " stroke=\"#ffffff\" stroke-width=\"12\"");
+}
+
+fn write_range(svg: &mut String, [low_px, high_px]: [f64; 2], middle_px: f64, colour: Colour) {
     let (from, to, y) = (units(low_px), units(high_px), units(middle_px));
     svg.push_str(&format!("<path d=\"M{from} {y}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(colour)));
-    write_disc(svg, (median_px, middle_px), MEDIAN_PX, colour, " stroke=\"#ffffff\" stroke-width=\"12\"");
 }
 
 fn write_diamond(svg: &mut String, (x_px, y_px): (f64, f64), colour: Colour) {
@@ -336,6 +345,21 @@ mod tests {
         rows[2].effect = "friction of the rack".to_owned();
         let needed = text_width_px(&rows[1].variant, FONT_PX);
         assert!(width(&rows) - plain > needed - LABELS_PX + VARIANT_PX);
+    }
+
+    /// A median that lies further out than the axis is no disc at its edge.
+    #[test]
+    fn a_median_beyond_the_axis_is_a_triangle() {
+        let drawn = |median: f64| {
+            let lane =
+                SensitivityLane { quantiles: Some([0.5, median, 3.0]), changes: vec![], own: None, ..rows()[0].lanes[0].clone() };
+            let rows = [SensitivityRow { lanes: vec![lane], ..rows()[0].clone() }];
+            let svg = sensitivity_figure("A study", &["none".to_owned()], &rows).unwrap();
+            let (discs, triangles) = (svg.matches("stroke=\"#ffffff\"").count(), svg.matches("fill-opacity=\"0.6\"").count());
+            (discs, triangles)
+        };
+        let ((discs, triangles), beyond) = (drawn(0.9), drawn(2.0));
+        assert_eq!(beyond, (discs - 1, triangles + 1));
     }
 
     #[test]

@@ -89,7 +89,8 @@ impl Study {
         let key = |key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() };
         let mut folder_of_records = folder.to_owned();
         if !records.is_empty() {
-            file.records = records.iter().cloned().map(RecordEntry::Path).collect();
+            // Without a slash at its end, by which a folder would be another study.
+            file.records = records.iter().map(|path| RecordEntry::Path(path.components().collect())).collect();
             folder_of_records = PathBuf::new();
         }
         if file.records.is_empty() && !file.has_pulses() {

@@ -1,6 +1,6 @@
 //! Studies that cannot be run, and what they say.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::measure::Measure;
 use super::study::{Scaling, Study};
@@ -9,6 +9,14 @@ const RECORDS: &str = "records = ['a.csv']\n";
 
 fn parse(text: &str) -> Result<Study, String> {
     Study::parse(text, "study.toml", Path::new(""), &[], &[]).map_err(|error| error.to_string())
+}
+
+/// A slash that a shell's completion adds to a folder makes no other study.
+#[test]
+fn a_folder_is_the_same_with_a_slash_at_its_end() {
+    let study = |folder: &str| Study::parse(RECORDS, "a", Path::new(""), &[], &[PathBuf::from(folder)]).unwrap();
+    let records = |folder: &str| serde_json::to_string(&study(folder).file.records).unwrap();
+    assert_eq!(records("motions/"), records("motions"));
 }
 
 #[test]

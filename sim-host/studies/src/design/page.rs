@@ -1,5 +1,8 @@
 //! `design.md`: the page that a designer hands on: a table, the reasons, the limits.
 
+use sprag_shared::structure::drivetrain::Engagement;
+use sprag_sim::scene::SceneDevice;
+
 use super::basis::{DISC_THICKNESS_RATIO, STEEL_KG_M3, UNDERCUT_TEETH};
 use super::late::DELAYS_S;
 use super::sensors::SHARE;
@@ -148,7 +151,7 @@ fn reasons(problem: &Problem<'_>, list: &PartsList) -> String {
             }
         ));
     }
-    text + &built(list)
+    text + &built(problem, list)
 }
 
 fn motions(count: usize) -> String {
@@ -156,7 +159,7 @@ fn motions(count: usize) -> String {
 }
 
 /// What the chosen clutches came to.
-fn built(list: &PartsList) -> String {
+fn built(problem: &Problem<'_>, list: &PartsList) -> String {
     let Some(built) = &list.built else {
         let of_scene = |capacity: f64| {
             let [scene, chosen] = [capacity, list.pinion.load_n].map(|force| figures(1e-3 * force));
@@ -186,6 +189,11 @@ fn built(list: &PartsList) -> String {
              larger demand of both runs.",
             figures(1e-3 * support.value)
         );
+    }
+    let of_list = |device: &&SceneDevice| device.name == list.device;
+    if problem.scene.devices.iter().find(of_list).is_some_and(|device| device.drivetrain.engagement == Engagement::Ideal) {
+        text += " A released flywheel stops at once, as that of the ideal clutch: each needs a brake, which the list does not have. With flywheels that \
+                 coast the block may overturn where it stands here: try them with engagement = \"rigid\".";
     }
     if built.failed > 0 {
         text += &format!(" {} could not be followed.", motions(built.failed));
