@@ -200,12 +200,12 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
         }
     }
     if let Some(quantiles) = lane.quantiles {
-        let [low_px, median_px, high_px] = quantiles.map(|change| axis.position_px(change.clamp(-axis.limit, axis.limit)));
-        if quantiles[1].abs() <= axis.limit {
-            write_quantiles(svg, [low_px, median_px, high_px], middle_px, colour);
+        let [low, median, high] = quantiles;
+        write_range(svg, [low, high].map(|change| axis.position_px(change.clamp(-axis.limit, axis.limit))), middle_px, colour);
+        if median.abs() <= axis.limit {
+            write_median(svg, (axis.position_px(median), middle_px), colour);
         } else {
-            write_range(svg, [low_px, high_px], middle_px, colour);
-            write_beyond(svg, axis, quantiles[1], middle_px, colour);
+            write_beyond(svg, axis, median, middle_px, colour);
         }
     }
     match lane.own {
@@ -231,12 +231,12 @@ fn write_lane(svg: &mut String, axis: &Axis, lane: &SensitivityLane, middle_px: 
     }
 }
 
-/// Appends the line between the outer quantiles and the disc of the median.
-fn write_quantiles(svg: &mut String, [low_px, median_px, high_px]: [f64; 3], middle_px: f64, colour: Colour) {
-    write_range(svg, [low_px, high_px], middle_px, colour);
-    write_disc(svg, (median_px, middle_px), MEDIAN_PX, colour, " stroke=\"#ffffff\" stroke-width=\"12\"");
+/// Appends the disc of a median.
+fn write_median(svg: &mut String, at_px: (f64, f64), colour: Colour) {
+    write_disc(svg, at_px, MEDIAN_PX, colour, " stroke=\"#ffffff\" stroke-width=\"12\"");
 }
 
+/// Appends the line between the outer quantiles.
 fn write_range(svg: &mut String, [low_px, high_px]: [f64; 2], middle_px: f64, colour: Colour) {
     let (from, to, y) = (units(low_px), units(high_px), units(middle_px));
     svg.push_str(&format!("<path d=\"M{from} {y}H{to}\" stroke=\"{}\" stroke-width=\"16\"/>\n", hex(colour)));
@@ -269,13 +269,18 @@ fn write_triangle(svg: &mut String, (x_px, y_px): (f64, f64), base: i32, colour:
     ));
 }
 
+fn write_quantiles_key(svg: &mut String, (x, y): (f64, f64)) {
+    write_range(svg, [x - 9.0, x + 9.0], y, INK);
+    write_median(svg, (x, y), INK);
+}
+
 /// Legend entries of the devices that are drawn, and of all marks.
 fn keys(devices: &[String], rows: &[SensitivityRow]) -> [Vec<LegendEntry>; 2] {
     let used = |index: &usize| rows.iter().flat_map(|row| &row.lanes).any(|lane| lane.device == *index);
     let device = |index: usize| (Swatch::Tint(device_look(index).colour), devices[index].clone());
     let marks: [(DrawMark, &str); 4] = [
         (|svg, at| write_disc(svg, at, DOT_PX, INK, " fill-opacity=\"0.45\""), "a record"),
-        (|svg, (x, y)| write_quantiles(svg, [x - 9.0, x, x + 9.0], y, INK), "median, 16th to 84th percentile"),
+        (write_quantiles_key, "median, 16th to 84th percentile"),
         (|svg, at| write_diamond(svg, at, INK), "the scene's own motion"),
         (|svg, (x, y)| write_triangle(svg, (x + 3.0, y), -1, INK), "beyond the axis"),
     ];

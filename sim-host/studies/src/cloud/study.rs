@@ -8,7 +8,7 @@ use sprag_sim::scene::{Scene, SceneError, document, text_of};
 
 use super::measure::Measure;
 use super::structures::{StudyStructure, structures};
-use super::study_file::{RecordEntry, RecordTable, StudyFile};
+use super::study_file::{DescribedRecord, RecordEntry, RecordTable, StudyFile};
 use crate::statistics::{Bootstrap, Level};
 
 /// Most factors or levels of a study.
@@ -89,9 +89,13 @@ impl Study {
         let key = |key: &str| KeyPath { origin: origin.to_owned(), key: key.to_owned() };
         let mut folder_of_records = folder.to_owned();
         if !records.is_empty() {
-            // Without a slash at its end, by which a folder would be another study.
-            file.records = records.iter().map(|path| RecordEntry::Path(path.components().collect())).collect();
+            file.records = records.iter().cloned().map(RecordEntry::Path).collect();
             folder_of_records = PathBuf::new();
+        }
+        for entry in &mut file.records {
+            let (RecordEntry::Path(path) | RecordEntry::Described(DescribedRecord { file: path, .. })) = entry;
+            // Without a slash at its end, by which a folder would be another study.
+            *path = path.components().collect();
         }
         if file.records.is_empty() && !file.has_pulses() {
             return Err(key("records").missing("a list of record files and folders here, or --records PATH…").into());

@@ -11,12 +11,14 @@ fn parse(text: &str) -> Result<Study, String> {
     Study::parse(text, "study.toml", Path::new(""), &[], &[]).map_err(|error| error.to_string())
 }
 
-/// A slash that a shell's completion adds to a folder makes no other study.
+/// A slash that a shell's completion adds to a folder makes no other study, nor does one in the study's own text.
 #[test]
 fn a_folder_is_the_same_with_a_slash_at_its_end() {
-    let study = |folder: &str| Study::parse(RECORDS, "a", Path::new(""), &[], &[PathBuf::from(folder)]).unwrap();
-    let records = |folder: &str| serde_json::to_string(&study(folder).file.records).unwrap();
-    assert_eq!(records("motions/"), records("motions"));
+    let text = |study: Study| serde_json::to_string(&study.file.records).unwrap();
+    let given = |folder: &str| text(Study::parse(RECORDS, "a", Path::new(""), &[], &[PathBuf::from(folder)]).unwrap());
+    assert_eq!(given("motions/"), given("motions"));
+    let written = |folder: &str| text(parse(&format!("records = ['{folder}', {{ file = '{folder}', units = 'g' }}]")).unwrap());
+    assert_eq!(written("motions/"), written("motions"));
 }
 
 #[test]

@@ -1,12 +1,10 @@
 //! `design.md`: the page that a designer hands on: a table, the reasons, the limits.
 
-use sprag_shared::structure::drivetrain::Engagement;
-use sprag_sim::scene::SceneDevice;
-
 use super::basis::{DISC_THICKNESS_RATIO, STEEL_KG_M3, UNDERCUT_TEETH};
 use super::late::DELAYS_S;
 use super::sensors::SHARE;
 use super::study::{Findings, PartsList, Problem};
+use super::subject::is_tried_with_brakes;
 use super::table::{figures, lines};
 
 /// Duration of a contact at an impact, s, by which the shock on a sensor is estimated: the default of `controller.shock_s`.
@@ -190,8 +188,7 @@ fn built(problem: &Problem<'_>, list: &PartsList) -> String {
             figures(1e-3 * support.value)
         );
     }
-    let of_list = |device: &&SceneDevice| device.name == list.device;
-    if problem.scene.devices.iter().find(of_list).is_some_and(|device| device.drivetrain.engagement == Engagement::Ideal) {
+    if problem.scene.devices.iter().any(|device| device.name == list.device && is_tried_with_brakes(device)) {
         text += " A released flywheel stops at once, as that of the ideal clutch: each needs a brake, which the list does not have. With flywheels that \
                  coast the block may overturn where it stands here: try them with engagement = \"rigid\".";
     }

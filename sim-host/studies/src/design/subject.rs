@@ -11,7 +11,7 @@ use sprag_sim::scene::checks::{ChecksTable, CoilTable};
 use sprag_sim::scene::controller::ControllerTable;
 use sprag_sim::scene::drivetrain::{BrakeValue, BrakeWord, ClutchTable};
 use sprag_sim::scene::motions::GroundMotions;
-use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::scene::{Scene, SceneDevice, SceneError};
 use sprag_sim::sensor::Suite;
 use sprag_sim::simulation::{DeviceRun, RunError, simulate};
 use sprag_sim::under_records;
@@ -25,6 +25,11 @@ const INTERVAL_RATIO: f64 = 0.005;
 
 /// The toe is looked at only where a coefficient is known; this one is beyond all demands.
 const ANY_FRICTION: f64 = 10.0;
+
+/// Whether clutches that are chosen for `device` are tried with released flywheels that a brake stops at once: in the place of ideal ones, whose do.
+pub fn is_tried_with_brakes(device: &SceneDevice) -> bool {
+    device.drivetrain.engagement == Engagement::Ideal
+}
 
 /// A device.
 #[derive(Clone, Debug)]
@@ -71,19 +76,17 @@ impl Subject {
         self.with(self.scene.with_device(device)?)
     }
 
-    /// The same with plates that slip above `capacity_n` (N at the rack) in the place of an ideal or rigid clutch; a released flywheel of the ideal
-    /// clutch is stopped at once, as there. None where the scene has a clutch of its own.
+    /// The same with plates that slip above `capacity_n` (N at the rack) in the place of an ideal or rigid clutch, [with brakes](is_tried_with_brakes)
+    /// in that of an ideal one. None where the scene has a clutch of its own.
     ///
     /// # Errors
     /// [`SceneError`] where the scene does not take it.
     pub fn built(&self, capacity_n: f64) -> Result<Option<Subject>, SceneError> {
         let mut device = self.scene.file.device[0].clone();
-        match self.scene.devices[0].drivetrain.engagement {
-            Engagement::Ideal => {
-                device.flywheel.get_or_insert_default().brake_deceleration_m_s2 = BrakeValue::Word(BrakeWord::Instant);
-            }
-            Engagement::Rigid => {}
-            _ => return Ok(None),
+        if is_tried_with_brakes(&self.scene.devices[0]) {
+            device.flywheel.get_or_insert_default().brake_deceleration_m_s2 = BrakeValue::Word(BrakeWord::Instant);
+        } else if self.scene.devices[0].drivetrain.engagement != Engagement::Rigid {
+            return Ok(None);
         }
         device.engagement = None;
         device.kinematics = None;
