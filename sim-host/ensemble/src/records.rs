@@ -3,6 +3,7 @@
 //! Between two samples the ground is a straight line, so a step goes no further than to the next one, and few terms do. A block at rest
 //! costs nothing: the sample that lifts it again is looked up.
 
+use std::array::from_fn;
 use std::f64::consts::FRAC_PI_2;
 
 use sprag_shared::math::scalar::Scalar;
@@ -14,7 +15,7 @@ use crate::blocks::{Blocks, Bounds};
 use crate::model::Model;
 use crate::rest::tail;
 use crate::series::Series;
-use crate::shaken::{DOUBTFUL_UPLIFT, Doubtful, Shaken, ShakenBlock, Uplift};
+use crate::shaken::{DOUBTFUL_UPLIFT, Doubtful, Samples, Shaken, ShakenBlock, Uplift};
 use crate::{Mask, Number, WIDTH, number};
 
 /// Coefficients of θ: as many as reach from one sample to the next.
@@ -129,18 +130,50 @@ impl<'a, 'b> Lanes<'a, 'b> {
     }
 
     /// Moves `lane` to `time` after `sample`.
-    #[inline(always)]
     fn stand_at<M: Model>(&mut self, lane: usize, sample: usize, time: f64) {
         let Some(place) = &mut self.at[lane] else { return };
         place.sample = sample;
         let block = &self.shaken[place.index];
         self.lines.time.0[lane] = time;
         (self.lines.start.0[lane], self.lines.end.0[lane]) = (block.at(sample), block.at(sample + 1));
+        self.bound::<M>(lane, block, sample);
+    }
+
+    /// A slender block has no ground to lie on: it has overturned when no ground acceleration still to come brings it back.
+    #[inline(always)]
+    fn bound<M: Model>(&mut self, lane: usize, block: &ShakenBlock<'_>, sample: usize) {
         if M::GEOMETRY == Geometry::Slender {
-            // A slender block has no ground to lie on: it has overturned when no ground acceleration still to come brings it back.
             let no_return = block.plain.slenderness + block.factor.abs() * block.samples.bounds[sample];
             self.bounds.overturned.0[lane] = block.plain.overturned_at(no_return);
         }
+    }
+
+    /// Moves the lanes that are `over` to their next samples. Returns those whose records end there.
+    #[inline(always)]
+    fn next_samples<M: Model>(&mut self, over: Mask) -> Mask {
+        let mut last = Mask::NONE;
+        // In registers: a vector whose numbers have been stored one by one makes the processor wait.
+        let end: [f64; WIDTH] = from_fn(|lane| {
+            let end = self.lines.end.0[lane];
+            let (true, Some(place)) = (over.at(lane), &mut self.at[lane]) else { return end };
+            let block = &self.shaken[place.index];
+            let Samples { values, bounds, .. } = block.samples;
+            let sample = place.sample + 1;
+            if sample + 1 >= values.len() {
+                last.set(lane, true);
+                return end;
+            }
+            place.sample = sample;
+            if bounds[sample] != bounds[sample - 1] {
+                self.bound::<M>(lane, block, sample);
+            }
+            block.at(sample + 1)
+        });
+        let moves = over & !last;
+        self.lines.start = moves.choose(self.lines.end, self.lines.start);
+        self.lines.time = moves.choose(number(0.0), self.lines.time);
+        self.lines.end.0 = end;
+        last
     }
 
     /// s since the start of the record.
@@ -267,13 +300,9 @@ pub(crate) fn run<M: Model, const PAIR: bool>(shaken: &[ShakenBlock<'_>], result
             over = over & !uplift;
         }
         let ended = lanes.blocks.overturned | lanes.blocks.hard | rest;
+        let over = lanes.next_samples::<M>(over & !ended);
         for lane in (0..WIDTH).filter(|&lane| ended.at(lane) || over.at(lane)) {
             let Some(mut place) = lanes.at[lane] else { continue };
-            let goes_on = place.sample + 2 < shaken[place.index].samples.values.len();
-            if !ended.at(lane) && goes_on {
-                lanes.stand_at::<M>(lane, place.sample + 1, 0.0);
-                continue;
-            }
             let phase = if lanes.blocks.hard.at(lane) {
                 None
             } else if lanes.blocks.overturned.at(lane) {

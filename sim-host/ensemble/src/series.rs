@@ -76,25 +76,38 @@ impl<const TERMS: usize> Series<TERMS> {
     /// an event was located on it.
     #[inline(always)]
     pub fn expand<E: Equation<Number>>(&mut self, equation: &E, rotation: Number, velocity: Number, at_zero: Mask) {
-        // θ, θ̇ and the ground are the first three nodes.
-        const GIVEN: usize = 3;
-        let next = Cell::new(GIVEN);
         self.motion.start(&self.tape, rotation, velocity);
-        for k in 0..Self::RATES {
-            self.tape.set(2, k, self.ground[k]);
-            next.set(GIVEN);
-            let tape = &self.tape;
-            let (theta, omega, push) = (tape.given(&next, k, 0), tape.given(&next, k, 1), tape.given(&next, k, 2));
-            let node = equation.acceleration(number(1.0), theta, omega, push);
-            if k == 0 {
-                node.set_last(at_zero.choose(number(0.0), node.last()));
-            } else {
-                self.off_zero[k - 1] = at_zero.choose(node.last(), self.motion.acceleration[k - 1]);
+        // A loop around sums of few products takes longer than the products; written out, many orders would not stay in a cache.
+        const WRITTEN_OUT: usize = 8;
+        macro_rules! write_out {
+            ($($k:literal)+) => { $(if $k < Self::RATES { self.order(equation, $k, at_zero) })+ };
+        }
+        if Self::RATES <= WRITTEN_OUT {
+            write_out!(0 1 2 3 4 5 6 7);
+        } else {
+            for k in 0..Self::RATES {
+                self.order(equation, k, at_zero);
             }
-            self.motion.extend(tape, k, node.last());
         }
         let last = Self::RATES - 1;
         self.off_zero[last] = at_zero.choose(number(0.0), self.motion.acceleration[last]);
+    }
+
+    /// Adds coefficient `k` of θ̈.
+    #[inline(always)]
+    fn order<E: Equation<Number>>(&mut self, equation: &E, k: usize, at_zero: Mask) {
+        // θ, θ̇ and the ground are the first three nodes.
+        let next = Cell::new(3);
+        let tape = &self.tape;
+        tape.set(2, k, self.ground[k]);
+        let (theta, omega, push) = (tape.given(&next, k, 0), tape.given(&next, k, 1), tape.given(&next, k, 2));
+        let node = equation.acceleration(number(1.0), theta, omega, push);
+        if k == 0 {
+            node.set_last(at_zero.choose(number(0.0), node.last()));
+        } else {
+            self.off_zero[k - 1] = at_zero.choose(node.last(), self.motion.acceleration[k - 1]);
+        }
+        self.motion.extend(tape, k, node.last());
     }
 
     /// How far the last two terms of θ stay below `tolerance` (rad; Jorba and Zou's two-term rule).
