@@ -167,21 +167,16 @@ impl Model {
 mod tests {
     use super::*;
     use crate::math;
+    use crate::structure::Restitution;
     use crate::structure::block::{Block, Geometry};
     use crate::structure::device::{Device, DeviceKind, KinematicsKind};
     use crate::structure::mount::Mount;
-    use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter};
 
     fn structure(geometry: Geometry, mount: Mount, kinematics: KinematicsKind) -> Structure {
         Structure {
-            block: Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(),
             geometry,
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
-            added_mass: crate::structure::added_mass::AddedMass::NONE,
-            restitution: Restitution::Constant(0.85),
-            restitution_scatter: RestitutionScatter::NONE,
-            base: Base::Rigid,
-            rest_speed: REST_SPEED,
+            ..Structure::new(Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(), Restitution::Constant(0.85))
         }
     }
 

@@ -23,13 +23,11 @@ use crate::control::sensing::instruments::Instruments;
 use crate::control::sensing::required::Required;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use crate::control::supervisor::{Parameters, Phase, SafeState, Supervisor};
-use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 use crate::structure::mount::Mount;
-use crate::structure::{Base, RestitutionScatter};
-use crate::structure::{REST_SPEED, Restitution, Structure};
+use crate::structure::{Restitution, Structure};
 use std::collections::BTreeSet;
 use std::string::ToString;
 use std::vec::Vec;
@@ -43,14 +41,9 @@ const BODIES: [(Geometry, KinematicsKind); 3] = [
 
 fn structure((geometry, kinematics): (Geometry, KinematicsKind), mount: Mount) -> Structure {
     Structure {
-        block: Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(),
         geometry,
         device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        ..Structure::new(Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(), Restitution::Constant(0.85))
     }
 }
 

@@ -81,11 +81,10 @@ mod tests {
     use crate::equation::any_equation::AnyEquation;
     use crate::equation::body::FullBody;
     use crate::motion::ideal::IdealSystem;
+    use crate::structure::Structure;
     use crate::structure::block::GRAVITY;
     use crate::structure::device::{DeviceKind, KinematicsKind};
     use crate::structure::restitution::Restitution;
-    use crate::structure::{Base, RestitutionScatter};
-    use crate::structure::{REST_SPEED, Structure};
     use std::string::String;
 
     /// What a resolved system does at θ, θ̇ and ü_g/g.
@@ -112,14 +111,9 @@ mod tests {
 
     fn structure(mount: Mount, added_mass: AddedMass) -> Structure {
         Structure {
-            block: Block::new(2.0, 0.3, 1.4).unwrap(),
-            geometry: Geometry::Full,
             device: Device { kind: DeviceKind::Inerter, mass_ratio: 0.7, mount, kinematics: KinematicsKind::Consistent },
             added_mass,
-            restitution: Restitution::MomentumBalance,
-            restitution_scatter: RestitutionScatter::NONE,
-            base: Base::Rigid,
-            rest_speed: REST_SPEED,
+            ..Structure::new(Block::new(2.0, 0.3, 1.4).unwrap(), Restitution::MomentumBalance)
         }
     }
 

@@ -60,6 +60,21 @@ pub const REST_SPEED: f64 = 1e-6;
 pub const COUNTED_SPEED: f64 = 1e-6;
 
 impl Structure {
+    /// The full block without a device, with the default of everything else.
+    #[must_use]
+    pub const fn new(block: Block, restitution: Restitution) -> Structure {
+        Structure {
+            block,
+            geometry: Geometry::Full,
+            device: Device::NONE,
+            added_mass: AddedMass::NONE,
+            restitution,
+            restitution_scatter: RestitutionScatter::NONE,
+            base: Base::Rigid,
+            rest_speed: REST_SPEED,
+        }
+    }
+
     /// The same structure as a block that carries nothing: block, mass ratio and mount are those of the loaded block
     /// ([`AddedMass::block`], [`AddedMass::device`]), `self` as it is when there is nothing to carry. Whatever the block's α, R or λ
     /// decides (uplift, overturning, impacts) is decided by this one's; dimensionless results (θ/α, ω/p, a_g/(g tan α)) stay

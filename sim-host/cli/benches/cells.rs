@@ -13,13 +13,11 @@ use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::hybrid::series::Series;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, GRAVITY, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::Drivetrain;
 use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::ground_motion::{Component, GroundMotion};
@@ -94,16 +92,7 @@ fn structure(geometry: Geometry, kind: DeviceKind) -> Structure {
     let block = Block::new(6.0, 0.2, RECTANGLE_INERTIA_RATIO).expect("within range");
     let device = Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper };
     let restitution = Restitution::Constant(0.95);
-    Structure {
-        block,
-        geometry,
-        device,
-        added_mass: AddedMass::NONE,
-        restitution,
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
-    }
+    Structure { geometry, device, ..Structure::new(block, restitution) }
 }
 
 /// Peak rotation by the loop for ideal devices.

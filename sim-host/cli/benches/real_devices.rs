@@ -13,13 +13,10 @@ use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::simulation::drive::{Course, Overturning};
@@ -146,19 +143,14 @@ fn drivetrain(case: Case) -> Drivetrain {
 
 fn structure(geometry: Geometry, index: u32) -> Option<Structure> {
     Some(Structure {
-        block: block(index)?,
         geometry,
         device: Device {
             kind: DeviceKind::ClutchedPair,
             mass_ratio: 0.5,
-            mount: Mount::CentreOfMass,
             kinematics: KinematicsKind::Consistent,
+            ..Device::NONE
         },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        ..Structure::new(block(index)?, Restitution::Constant(0.85))
     })
 }
 

@@ -13,12 +13,9 @@ use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_loops::{Method, Precision};
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::Geometry;
-use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::device::{Device, DeviceKind};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::simulation::drive::{Course, Overturning};
@@ -92,14 +89,9 @@ fn after(asked: &[ShakenBlock<'_>], structures: &[Structure], motions: usize) ->
 
 fn structure(geometry: Geometry, kind: DeviceKind, index: u32) -> Option<Structure> {
     Some(Structure {
-        block: block(index)?,
         geometry,
-        device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+        ..Structure::new(block(index)?, Restitution::Constant(0.85))
     })
 }
 

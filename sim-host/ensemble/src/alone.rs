@@ -7,13 +7,10 @@ pub use sprag_shared::method::taylor::TERMS;
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::device::{Device, KinematicsKind};
+use sprag_shared::structure::device::Device;
 use sprag_shared::structure::error::ParameterError;
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::{Restitution, Structure};
 
 use crate::model::Model;
 use crate::pulsed::{PulseResult, PulseShape, PulsedBlock};
@@ -35,20 +32,11 @@ pub enum CaseError {
 impl PulsedBlock {
     /// The block in units of 1/p.
     pub(crate) fn structure(&self) -> Result<Structure, CaseError> {
+        let block = Block::of_unit_frequency(self.plain.slenderness, RECTANGLE_INERTIA_RATIO)?;
         Ok(Structure {
-            block: Block::of_unit_frequency(self.plain.slenderness, RECTANGLE_INERTIA_RATIO)?,
             geometry: self.plain.geometry,
-            device: Device {
-                kind: self.plain.device,
-                mass_ratio: self.plain.coupling * RECTANGLE_INERTIA_RATIO,
-                mount: Mount::CentreOfMass,
-                kinematics: KinematicsKind::Paper,
-            },
-            added_mass: AddedMass::NONE,
-            restitution: Restitution::Constant(self.plain.restitution),
-            restitution_scatter: RestitutionScatter::NONE,
-            base: Base::Rigid,
-            rest_speed: REST_SPEED,
+            device: Device { kind: self.plain.device, mass_ratio: self.plain.coupling * RECTANGLE_INERTIA_RATIO, ..Device::NONE },
+            ..Structure::new(block, Restitution::Constant(self.plain.restitution))
         })
     }
 

@@ -1,11 +1,8 @@
 //! Blocks and devices.
 
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::device::{Device, DeviceKind};
+use sprag_shared::structure::{Restitution, Structure};
 
 /// Both equations of motion.
 pub const GEOMETRIES: [Geometry; 2] = [Geometry::Full, Geometry::Slender];
@@ -15,14 +12,9 @@ pub const GEOMETRIES: [Geometry; 2] = [Geometry::Full, Geometry::Slender];
 pub fn unit_block(geometry: Geometry, slenderness: f64, device: DeviceKind, mass_ratio: f64, restitution: f64) -> Structure {
     let block = Block::of_unit_frequency(slenderness.to_radians(), RECTANGLE_INERTIA_RATIO).expect("a slenderness within range");
     Structure {
-        block,
         geometry,
-        device: Device { kind: device, mass_ratio, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(restitution),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind: device, mass_ratio, ..Device::NONE },
+        ..Structure::new(block, Restitution::Constant(restitution))
     }
 }
 

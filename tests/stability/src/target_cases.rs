@@ -3,12 +3,10 @@
 use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::{Harmonics, Linear};
 use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::{Restitution, Structure};
 
 /// A case, its name, and how it must end.
 #[derive(Clone, Debug)]
@@ -29,15 +27,11 @@ const SLENDERNESS: f32 = 0.171_875;
 /// p = 1/s, σ = 0.5.
 fn structure(geometry: Geometry, kind: DeviceKind, restitution: f64) -> Structure {
     let mass_ratio = if kind == DeviceKind::None { 0.0 } else { 0.5 };
+    let block = Block::of_unit_frequency(f64::from(SLENDERNESS), RECTANGLE_INERTIA_RATIO).expect("a slenderness within range");
     Structure {
-        block: Block::of_unit_frequency(f64::from(SLENDERNESS), RECTANGLE_INERTIA_RATIO).expect("a slenderness within range"),
         geometry,
         device: Device { kind, mass_ratio, kinematics: KinematicsKind::Consistent, ..Device::NONE },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(restitution),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        ..Structure::new(block, Restitution::Constant(restitution))
     }
 }
 

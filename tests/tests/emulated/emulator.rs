@@ -10,11 +10,11 @@ use sprag_case::{Case, FixedMethod, Ground, GroundPiece, Initially, Shape};
 use sprag_shared::ground::Harmonics;
 use sprag_shared::observers::digest::Digest;
 use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
-use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{Restitution, Structure};
 use sprag_tests::emulation::{emulate, firmware, kernels};
 
@@ -23,16 +23,7 @@ const METHODS: [FixedMethod; 3] = [FixedMethod::SemiImplicitEuler, FixedMethod::
 /// σ = 0.5, η = 0.85.
 fn structure(block: Block, geometry: Geometry, kind: DeviceKind) -> Structure {
     let device = Device { kind, mass_ratio: 0.5, ..Device::NONE };
-    Structure {
-        block,
-        geometry,
-        device,
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: 1e-6,
-    }
+    Structure { geometry, device, ..Structure::new(block, Restitution::Constant(0.85)) }
 }
 
 /// A slender block of p = 1/s under one cycle of sine with ω/p and a_g/(gα).

@@ -12,13 +12,12 @@ use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::ledger::{Account, Clutching};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::RestitutionScatter;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack};
 use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion, Segment};
 use sprag_sim::simulation::drive::{Course, Overturning, Segmented};
@@ -79,14 +78,10 @@ fn structures(geometry: Geometry) -> Vec<Structure> {
             Mount::TyingPoint { height: 1.6 * size * math::cos(slenderness), pulley_ratio: 1.0 }
         };
         Structure {
-            block,
             geometry,
             device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, mount, kinematics: KinematicsKind::Consistent },
-            added_mass: AddedMass::NONE,
-            restitution: Restitution::Constant(restitution),
             restitution_scatter: RestitutionScatter { deviation: if index == 1 { 0.05 } else { 0.0 }, seed: 5 },
-            base: Base::Rigid,
-            rest_speed: REST_SPEED,
+            ..Structure::new(block, Restitution::Constant(restitution))
         }
     };
     kinds.into_iter().enumerate().map(structure).collect()

@@ -7,12 +7,9 @@ use sprag_loops::{Method, Precision};
 use sprag_shared::math;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
+use sprag_shared::structure::device::{Device, DeviceKind};
+use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::simulation::drive::{Course, Overturning};
@@ -38,14 +35,9 @@ fn motion(seed: u64, seconds: f64) -> Vec<f64> {
 
 fn structure(geometry: Geometry, kind: DeviceKind, (size, slenderness, restitution): (f64, f64, f64)) -> Structure {
     Structure {
-        block: Block::new(size, slenderness, RECTANGLE_INERTIA_RATIO).unwrap(),
         geometry,
-        device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(restitution),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+        ..Structure::new(Block::new(size, slenderness, RECTANGLE_INERTIA_RATIO).unwrap(), Restitution::Constant(restitution))
     }
 }
 

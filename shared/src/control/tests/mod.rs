@@ -8,30 +8,16 @@ use crate::control::estimation::estimate::Estimate;
 use crate::control::law::Situation;
 use crate::control::law::signs::Signs;
 use crate::math::sign::Sign;
-use crate::structure::added_mass::AddedMass;
-use crate::structure::block::{Block, Geometry};
-use crate::structure::device::{Device, DeviceKind, KinematicsKind};
+use crate::structure::block::Block;
+use crate::structure::device::{Device, DeviceKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
-use crate::structure::mount::Mount;
-use crate::structure::{Base, RestitutionScatter};
-use crate::structure::{REST_SPEED, Restitution, Structure};
+use crate::structure::{Restitution, Structure};
 
 /// R = 2 m, α = 10°, σ = 0.5.
 pub fn structure() -> Structure {
     Structure {
-        block: Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(),
-        geometry: Geometry::Full,
-        device: Device {
-            kind: DeviceKind::ClutchedPair,
-            mass_ratio: 0.5,
-            mount: Mount::CentreOfMass,
-            kinematics: KinematicsKind::Paper,
-        },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, ..Device::NONE },
+        ..Structure::new(Block::new(2.0, 10_f64.to_radians(), 4.0 / 3.0).unwrap(), Restitution::Constant(0.85))
     }
 }
 

@@ -10,12 +10,9 @@ use crate::method::taylor::Taylor;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
 use crate::observers::peaks::Peaks;
-use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-use crate::structure::mount::Mount;
-use crate::structure::{Base, RestitutionScatter};
-use crate::structure::{REST_SPEED, Restitution, Structure};
+use crate::structure::device::{Device, DeviceKind};
+use crate::structure::{Restitution, Structure};
 use core::f64::consts::TAU;
 use std::vec::Vec;
 use std::{println, vec};
@@ -89,14 +86,9 @@ impl<S: Real> Observer<S> for Log<S> {
 /// A slender block with p = 1/s.
 fn structure(kind: DeviceKind, geometry: Geometry) -> Structure {
     Structure {
-        block: Block::of_unit_frequency(SLENDERNESS, RECTANGLE_INERTIA_RATIO).unwrap(),
         geometry,
-        device: Device { kind, mass_ratio: 0.5, mount: Mount::CentreOfMass, kinematics: KinematicsKind::Paper },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
+        ..Structure::new(Block::of_unit_frequency(SLENDERNESS, RECTANGLE_INERTIA_RATIO).unwrap(), Restitution::Constant(0.85))
     }
 }
 

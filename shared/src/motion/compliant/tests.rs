@@ -8,27 +8,17 @@ use crate::math;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
-use crate::structure::added_mass::AddedMass;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::foundation::Foundation;
 use crate::structure::mount::Mount;
-use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter, Structure};
+use crate::structure::{Base, Restitution, Structure};
 
 const ALPHA: f64 = 0.2;
 const LIMITS: Limits<f64> = Limits { overturned: core::f64::consts::FRAC_PI_2, events: 10_000_000 };
 
 fn structure(device: Device) -> Structure {
-    Structure {
-        block: Block::new(1.5, ALPHA, 1.3).unwrap(),
-        geometry: Geometry::Full,
-        device,
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Geometric,
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
-    }
+    Structure { device, ..Structure::new(Block::new(1.5, ALPHA, 1.3).unwrap(), Restitution::Geometric) }
 }
 
 fn on_feet(structure: Structure, vertical_frequency: f64, damping_ratio: f64) -> Structure {

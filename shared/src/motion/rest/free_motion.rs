@@ -85,18 +85,15 @@ impl<I: FirstIntegral> FreeMotion<I> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::added_mass::AddedMass;
     use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-    use crate::structure::{Base, RestitutionScatter};
 
     use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
     use crate::ground::Harmonics;
     use crate::method::taylor::Taylor;
     use crate::motion::state::{Limits, Phase};
     use crate::observers::peaks::Peaks;
-    use crate::structure::device::{Device, DeviceKind, KinematicsKind};
-    use crate::structure::mount::Mount;
-    use crate::structure::{REST_SPEED, Restitution, Structure};
+    use crate::structure::device::{Device, DeviceKind};
+    use crate::structure::{Restitution, Structure};
 
     const MASS_RATIO: f64 = 0.9;
     const COUPLING: f64 = MASS_RATIO / RECTANGLE_INERTIA_RATIO;
@@ -127,20 +124,11 @@ mod tests {
             for speed in -30..30 {
                 let velocity = alpha * (f64::from(speed) + 0.37) * 0.06;
                 let settled = motion.settle(rotation, velocity);
+                let block = Block::of_unit_frequency(alpha, RECTANGLE_INERTIA_RATIO).unwrap();
                 let structure = Structure {
-                    block: Block::of_unit_frequency(alpha, RECTANGLE_INERTIA_RATIO).unwrap(),
                     geometry,
-                    device: Device {
-                        kind,
-                        mass_ratio: MASS_RATIO,
-                        mount: Mount::CentreOfMass,
-                        kinematics: KinematicsKind::Paper,
-                    },
-                    added_mass: AddedMass::NONE,
-                    restitution: Restitution::Constant(0.93),
-                    restitution_scatter: RestitutionScatter::NONE,
-                    base: Base::Rigid,
-                    rest_speed: REST_SPEED,
+                    device: Device { kind, mass_ratio: MASS_RATIO, ..Device::NONE },
+                    ..Structure::new(block, Restitution::Constant(0.93))
                 };
                 let (followed, _) = followed(&structure, rotation, velocity);
                 let at = (kind, rotation / alpha, velocity / alpha);

@@ -3,12 +3,9 @@
 use sprag_shared::ground::Harmonics;
 use sprag_shared::motion::state::{BlockState, Limits};
 use sprag_shared::observers::peaks::Peaks;
-use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::device::{Device, DeviceKind};
 use sprag_shared::structure::error::ParameterError;
-use sprag_shared::structure::mount::Mount;
-use sprag_shared::structure::{Base, RestitutionScatter};
 use sprag_shared::structure::{REST_SPEED, Restitution, Structure};
 
 pub use sprag_ensemble::alone::{CaseError, TIGHT};
@@ -86,20 +83,12 @@ impl Case {
     /// # Errors
     /// [`ParameterError`] for a slenderness outside its range.
     pub fn structure(&self) -> Result<Structure, ParameterError> {
+        let block = Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?;
         Ok(Structure {
-            block: Block::of_unit_frequency(self.slenderness, RECTANGLE_INERTIA_RATIO)?,
             geometry: self.geometry,
-            device: Device {
-                kind: self.device,
-                mass_ratio: self.mass_ratio,
-                mount: Mount::CentreOfMass,
-                kinematics: KinematicsKind::Paper,
-            },
-            added_mass: AddedMass::NONE,
-            restitution: Restitution::Constant(self.restitution),
-            restitution_scatter: RestitutionScatter::NONE,
-            base: Base::Rigid,
+            device: Device { kind: self.device, mass_ratio: self.mass_ratio, ..Device::NONE },
             rest_speed: self.rest_speed,
+            ..Structure::new(block, Restitution::Constant(self.restitution))
         })
     }
 

@@ -2,14 +2,11 @@ use std::f64::consts::PI;
 
 use sprag_shared::ground::{AnySegment, GroundSegment, Harmonics};
 use sprag_shared::math;
-use sprag_shared::structure::added_mass::AddedMass;
+use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry};
-use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
+use sprag_shared::structure::device::{Device, DeviceKind};
 use sprag_shared::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
-use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
-use sprag_shared::structure::{Base, RestitutionScatter};
-use sprag_shared::structure::{REST_SPEED, Structure};
 
 use super::rocker::Place;
 use super::{Grid, Rocker, search};
@@ -19,19 +16,9 @@ const ALPHA: f64 = 0.2;
 
 fn rocker(geometry: Geometry, engagement: Engagement) -> Rocker {
     let structure = Structure {
-        block: Block::new(2.0, ALPHA, 4.0 / 3.0).unwrap(),
         geometry,
-        device: Device {
-            kind: DeviceKind::ClutchedPair,
-            mass_ratio: 0.5,
-            mount: Mount::CentreOfMass,
-            kinematics: KinematicsKind::Paper,
-        },
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        device: Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, ..Device::NONE },
+        ..Structure::new(Block::new(2.0, ALPHA, 4.0 / 3.0).unwrap(), Restitution::Constant(0.85))
     };
     let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration: 0.0, brake_deceleration: 2.0, drag_rate: 0.0 };
     let drivetrain = match engagement {

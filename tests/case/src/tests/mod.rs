@@ -12,7 +12,7 @@ use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::drivetrain::{Actuation, Delay, Engagement, FlywheelLosses, Rack, Support};
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::restitution::Restitution;
-use sprag_shared::structure::{Base, REST_SPEED, RestitutionScatter};
+use sprag_shared::structure::{REST_SPEED, RestitutionScatter};
 
 mod devices;
 
@@ -22,14 +22,10 @@ fn figure05(kind: DeviceKind) -> Case<'static> {
     let pulse = Shape::Sine(Harmonics::sine(1.5 * alpha as f32, 4.0));
     Case {
         structure: Structure {
-            block: Block::new(8.0, alpha, 1.25).unwrap(),
             geometry: Geometry::Slender,
             device: Device { kind, mass_ratio: 0.5, ..Device::NONE },
-            added_mass: AddedMass::NONE,
-            restitution: Restitution::Constant(0.875),
-            restitution_scatter: RestitutionScatter::NONE,
-            base: Base::Rigid,
             rest_speed: f64::from(REST_SPEED as f32),
+            ..Structure::new(Block::new(8.0, alpha, 1.25).unwrap(), Restitution::Constant(0.875))
         },
         drivetrain: Drivetrain::default(),
         initially: Initially::Rest,

@@ -28,14 +28,11 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
-use crate::structure::added_mass::AddedMass;
+use crate::structure::Structure;
 use crate::structure::block::{Block, Geometry};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
-use crate::structure::mount::Mount;
 use crate::structure::restitution::Restitution;
-use crate::structure::{Base, RestitutionScatter};
-use crate::structure::{REST_SPEED, Structure};
 
 fn sine(amplitude: f64, frequency: f64) -> AnySegment<f64> {
     AnySegment::Sine(Harmonics::sine(amplitude, frequency))
@@ -71,14 +68,9 @@ pub struct Seen {
 
 pub fn structure(geometry: Geometry, degrees: f64, kind: DeviceKind, sigma: f64, kinematics: KinematicsKind) -> Structure {
     Structure {
-        block: Block::new(2.0, degrees.to_radians(), 4.0 / 3.0).unwrap(),
         geometry,
-        device: Device { kind, mass_ratio: sigma, mount: Mount::CentreOfMass, kinematics },
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        added_mass: AddedMass::NONE,
-        rest_speed: REST_SPEED,
+        device: Device { kind, mass_ratio: sigma, kinematics, ..Device::NONE },
+        ..Structure::new(Block::new(2.0, degrees.to_radians(), 4.0 / 3.0).unwrap(), Restitution::Constant(0.85))
     }
 }
 

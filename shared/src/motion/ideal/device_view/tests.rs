@@ -8,8 +8,7 @@ use crate::motion::state::Limits;
 use crate::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
 use crate::structure::device::{Device, DeviceKind, KinematicsKind};
 use crate::structure::mount::Mount;
-use crate::structure::{Base, RestitutionScatter};
-use crate::structure::{REST_SPEED, Restitution, Structure};
+use crate::structure::{Restitution, Structure};
 use std::vec::Vec;
 
 /// A ground segment of a test.
@@ -83,14 +82,9 @@ pub(crate) fn structure(
     mount: Mount,
 ) -> Structure {
     Structure {
-        block: Block::new(2.0, degrees.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap(),
         geometry,
         device: Device { kind, mass_ratio: 0.5, mount, kinematics },
-        added_mass: crate::structure::added_mass::AddedMass::NONE,
-        restitution: Restitution::Constant(0.85),
-        restitution_scatter: RestitutionScatter::NONE,
-        base: Base::Rigid,
-        rest_speed: REST_SPEED,
+        ..Structure::new(Block::new(2.0, degrees.to_radians(), RECTANGLE_INERTIA_RATIO).unwrap(), Restitution::Constant(0.85))
     }
 }
 

@@ -4,7 +4,9 @@ use super::*;
 use crate::ground::Ricker;
 use crate::math::sign::Sign;
 use crate::method::taylor::Taylor;
-use crate::structure::device::DeviceKind;
+use crate::structure::RestitutionScatter;
+use crate::structure::block::Geometry;
+use crate::structure::device::{Device, DeviceKind};
 
 /// Peaks, times and states of a block that the friction holds, to the error of its steps.
 #[test]

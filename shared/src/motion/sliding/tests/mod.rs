@@ -14,22 +14,14 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::peaks::Peaks;
-use crate::structure::added_mass::AddedMass;
-use crate::structure::block::{Block, Geometry};
-use crate::structure::device::Device;
-use crate::structure::{Base, REST_SPEED, Restitution, RestitutionScatter, Structure};
+use crate::structure::block::Block;
+use crate::structure::{Base, Restitution, Structure};
 
 /// A block of 1 m whose slenderness is `alpha` (rad).
 fn block(alpha: f64, friction: f64) -> Structure {
     Structure {
-        block: Block::new(1.0, alpha, 4.0 / 3.0).unwrap(),
-        geometry: Geometry::Full,
-        device: Device::NONE,
-        added_mass: AddedMass::NONE,
-        restitution: Restitution::Geometric,
-        restitution_scatter: RestitutionScatter::NONE,
         base: Base::Friction(friction),
-        rest_speed: REST_SPEED,
+        ..Structure::new(Block::new(1.0, alpha, 4.0 / 3.0).unwrap(), Restitution::Geometric)
     }
 }
 
