@@ -54,7 +54,8 @@ pub struct StuckBit {
 /// Everything but the processor.
 #[derive(Clone, Debug)]
 pub struct Chip {
-    model: Model,
+    /// Which one.
+    pub model: Model,
     /// Now.
     pub now: u64,
     /// Cycles of the core's clock so far, by the half.

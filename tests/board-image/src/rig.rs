@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind, ReadNorFlash};
 use sprag_shared::control::monitor::fault::Fault;
+use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::Kind;
 use sprag_shared::link::{Deframer, MAX_FRAME, Reply, Request, Started, State, TickReport, encode};
 use sprag_shared::settings::store::Store;
@@ -139,6 +140,16 @@ impl Rig {
             tag: 0,
             noise: Random::new(42),
         }
+    }
+
+    /// A new board with the image for a chip and the default settings, armed.
+    ///
+    /// # Panics
+    /// As [`Rig::arm`] does.
+    pub fn armed(model: Model) -> Rig {
+        let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
+        rig.arm();
+        rig
     }
 
     /// Board, structure and link as they are now.
@@ -345,6 +356,16 @@ impl Rig {
             "the board does not start: resets {resets:?}, lockup {}, faults {:x?}, last blocks {:x?}",
             self.bench.lockup, chip.faults, chip.trail
         );
+    }
+
+    /// Runs from a reset or the power-on until the board has armed itself.
+    ///
+    /// # Panics
+    /// If it does not, or has a fault.
+    pub fn arm(&mut self) {
+        self.boot();
+        let state = self.wait(4000, |state| state.phase == Phase::Armed);
+        assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{:?}", self.bench.chip().model);
     }
 
     /// Resets the board.

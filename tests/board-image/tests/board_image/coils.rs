@@ -2,7 +2,7 @@
 
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::coil::{Coil, Switch};
-use sprag_board_image::rig::{Rig, image, image_for};
+use sprag_board_image::rig::{Rig, image};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::State;
 use sprag_shared::settings::Settings;
@@ -67,10 +67,7 @@ fn switches_that_never_close_are_found() {
 #[test]
 fn the_break_ends_an_over_current_within_microseconds() {
     for model in Model::ALL {
-        let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
-        rig.boot();
-        let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-        assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
+        let mut rig = Rig::armed(model);
         rig.ticks(100);
         let held = [0, 1].map(|coil| rig.bench.chip().drive(coil).1 > 0.0);
         let coil = held.iter().position(|held| *held).expect("one is engaged at rest");

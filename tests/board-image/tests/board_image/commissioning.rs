@@ -70,8 +70,7 @@ fn without_the_jumper_the_board_is_not_changed() {
 fn a_flash_that_is_protected_is_neither_read_out_nor_overwritten() {
     for model in Model::ALL {
         let image = image_for(model);
-        let mut rig = begun(model, Some(&Settings::default()));
-        rig.wait(4000, |state| state.phase == Phase::Armed);
+        let mut rig = Rig::armed(model);
         let flash = &rig.bench.chip().flash;
         let brown_out = flash.brown_out();
         assert_eq!(flash.by_probe(image.end() - 4), Some(flash.memory.word(image.end() - 4)));

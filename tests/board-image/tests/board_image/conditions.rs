@@ -1,16 +1,12 @@
 //! The coils' supply and the temperature, under which the pull-in time holds.
 
 use sprag_board_image::model::Model;
-use sprag_board_image::rig::{Rig, image_for};
+use sprag_board_image::rig::Rig;
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
-use sprag_shared::settings::Settings;
 
 fn armed(model: Model) -> Rig {
-    let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!(state.phase, Phase::Armed, "{model:?}: {:?}", state.fault);
+    let mut rig = Rig::armed(model);
     assert_eq!(rig.warnings(), [], "{model:?}");
     rig
 }

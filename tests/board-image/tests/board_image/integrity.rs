@@ -11,14 +11,6 @@ use sprag_shared::control::supervisor::{Parameters, Phase};
 use sprag_shared::link::{LOG_BLOCK, Reply, Request, State};
 use sprag_shared::settings::{Item, Settings};
 
-fn armed(model: Model) -> Rig {
-    let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
-    rig
-}
-
 /// It is in Fault for this reason, its coils in the safe state, and its link answers.
 fn stands_aside(rig: &mut Rig, state: &State, fault: Fault, what: &str) {
     assert_eq!((state.phase, state.fault), (Phase::Fault, Some(fault)), "{what}");
@@ -74,7 +66,7 @@ fn flip(rig: &mut Rig, place: u32, bit: u32) {
 #[test]
 fn a_bit_of_the_program_that_turns_in_operation_is_a_fault_within_seconds() {
     for model in Model::ALL {
-        let mut rig = armed(model);
+        let mut rig = Rig::armed(model);
         rig.ticks(3 * SECOND);
         assert_eq!(rig.state().fault, None, "{model:?}");
         let end = image_for(model).end();
@@ -97,9 +89,7 @@ fn a_program_without_a_seal_is_reported() {
         }
     }
     let mut rig = Rig::new(&image, Some(&Settings::default()));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!((state.phase, state.fault), (Phase::Armed, None));
+    rig.arm();
     let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
     assert!(!identity.sealed);
     let Reply::Log(log) = rig.ask(&Request::Log { from: 0 }) else { panic!("no log") };
@@ -127,7 +117,7 @@ fn a_stuck_bit_of_the_memory_is_a_fault_before_it_arms() {
 #[test]
 fn testing_the_memory_changes_nothing() {
     for model in Model::ALL {
-        let mut rig = armed(model);
+        let mut rig = Rig::armed(model);
         for _ in 0..10 {
             rig.ticks(SECOND);
             let Reply::Identity(identity) = rig.ask(&Request::Identify) else { panic!("no identity") };
@@ -143,7 +133,7 @@ fn testing_the_memory_changes_nothing() {
 fn a_bit_of_the_settings_that_turns_in_memory_is_a_fault_within_seconds() {
     for model in Model::ALL {
         let word = Settings::default().words()[usize::from(Item::Uplift.index())];
-        let rig = armed(model);
+        let rig = Rig::armed(model);
         let memory = RAM + 0x8000..RAM + 0x1_0000;
         let places: Vec<u32> = memory.step_by(4).filter(|place| rig.bench.chip().ram.word(*place) == word).collect();
         let count = places.len();
@@ -199,7 +189,7 @@ fn a_crystal_that_is_off_is_a_fault_and_a_slow_oscillator_that_is_off_is_none() 
 #[test]
 fn a_crystal_that_changes_its_rate_is_a_fault_within_seconds() {
     for model in Model::ALL {
-        let mut rig = armed(model);
+        let mut rig = Rig::armed(model);
         rig.bench.chip_mut().set_crystal(8_600_000);
         let state = rig.wait(5 * SECOND, |state| state.phase == Phase::Fault);
         stands_aside(&mut rig, &state, Fault::ClockWrong, &format!("{model:?}"));

@@ -1,5 +1,6 @@
 //! The link beside the control task.
 
+use sprag_board_image::model::Model;
 use sprag_board_image::rig::{Rig, image};
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::{Refusal, Reply, Request, WORD_BLOCK, Words};
@@ -8,9 +9,7 @@ use sprag_shared::settings::{Item, Settings};
 /// B4: requests as fast as the line carries them make no tick late.
 #[test]
 fn requests_at_line_rate_delay_no_tick() {
-    let mut rig = Rig::new(&image(), Some(&Settings::default()));
-    rig.boot();
-    rig.wait(4000, |state| state.phase == Phase::Armed);
+    let mut rig = Rig::armed(Model::F405);
     for _ in 0..300 {
         // 46 bytes in half a millisecond: frames of seven.
         (0..6).for_each(|_| _ = rig.send(&Request::Identify));

@@ -13,9 +13,7 @@ use sprag_shared::settings::Settings;
 fn armed(model: Model, ill: impl FnOnce(&mut Rig)) -> Rig {
     let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
     ill(&mut rig);
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
+    rig.arm();
     rig.ticks(600);
     rig
 }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::coil::{Coil, Switch};
-use sprag_board_image::rig::{Rig, image, image_for, swing};
+use sprag_board_image::rig::{Rig, image_for, swing};
 use sprag_shared::control::monitor::fault::Fault;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::Kind;
@@ -20,9 +20,7 @@ fn soon() -> Settings {
 
 fn armed(model: Model) -> Rig {
     let mut rig = Rig::new(&image_for(model), Some(&soon()));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!((state.phase, state.fault), (Phase::Armed, None), "{model:?}");
+    rig.arm();
     rig
 }
 
@@ -112,9 +110,7 @@ fn the_first_sign_of_motion_ends_a_test_at_once() {
 
 /// A coil that fails while the board stands armed shows nothing until it is tried.
 fn is_found(name: &str, ill: impl Fn(&mut Coil), faults: &[Fault]) {
-    let mut rig = Rig::new(&image(), Some(&soon()));
-    rig.boot();
-    rig.wait(4000, |state| state.phase == Phase::Armed);
+    let mut rig = armed(Model::F405);
     rig.ticks(100);
     ill(&mut rig.bench.chip_mut().coils[0]);
     let before = rig.state();

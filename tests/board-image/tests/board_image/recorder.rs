@@ -50,9 +50,7 @@ fn armed(model: Model, bytes: u32) -> Rig {
     let mut rig = Rig::new(&image_for(model), Some(&Settings::default()));
     let (start, _) = place(model);
     rig.bench.chip_mut().flash.memory.write(start, &vec![0x5A; bytes as usize]);
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!(state.phase, Phase::Armed, "{:?}", state.fault);
+    rig.arm();
     rig
 }
 
@@ -125,7 +123,7 @@ fn a_power_cut_in_a_page_leaves_the_pages_before() {
 #[test]
 fn a_reset_in_motion_continues_in_another_part_and_the_log_says_so() {
     for model in Model::ALL {
-        let mut rig = rocking(&image_for(model), 900);
+        let mut rig = rocking(model, 900);
         rig.reset(Cause::Watchdog);
         rig.boot();
         rig.ticks(1200);

@@ -2,21 +2,16 @@
 
 use std::rc::Rc;
 
-use sprag_board_image::image::Image;
 use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::rcc::Cause;
-use sprag_board_image::rig::{Rig, image_for, swing};
+use sprag_board_image::rig::{Rig, swing};
 use sprag_board_image::time::in_milliseconds;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::Request;
-use sprag_shared::settings::Settings;
 
 /// Armed, and then rocking for so many ticks.
-pub fn rocking(image: &Image, ticks: usize) -> Rig {
-    let mut rig = Rig::new(image, Some(&Settings::default()));
-    rig.boot();
-    let armed = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!(armed.phase, Phase::Armed, "{:?}", armed.fault);
+pub fn rocking(model: Model, ticks: usize) -> Rig {
+    let mut rig = Rig::armed(model);
     let begin = rig.bench.now();
     rig.structure = Rc::new(swing(begin));
     rig.ticks(ticks);
@@ -46,7 +41,7 @@ fn back(rig: &mut Rig) -> (f64, f64) {
 #[test]
 fn a_reset_in_motion_is_resumed_from_within_50_ms() {
     for (model, phases) in [(Model::F405, 20), (Model::G474, 5)] {
-        let mut rig = rocking(&image_for(model), 600);
+        let mut rig = rocking(model, 600);
         let mut worst = (0.0_f64, 0.0_f64);
         for phase in 0..phases {
             let before = rig.snapshot();
@@ -67,7 +62,7 @@ fn a_reset_in_motion_is_resumed_from_within_50_ms() {
 #[test]
 fn a_tick_in_motion_costs_the_same_on_every_chip() {
     let [first, second] = Model::ALL.map(|model| {
-        let mut rig = rocking(&image_for(model), 600);
+        let mut rig = rocking(model, 600);
         rig.costs.clear();
         rig.ticks(400);
         assert_eq!(rig.state().worst_lateness, 0, "{model:?}");
@@ -82,7 +77,7 @@ fn a_tick_in_motion_costs_the_same_on_every_chip() {
 #[test]
 fn a_snapshot_goes_on_as_the_board_did() {
     for model in Model::ALL {
-        let mut rig = rocking(&image_for(model), 600);
+        let mut rig = rocking(model, 600);
         let before = rig.snapshot();
         let mut goes_on = || {
             rig.send(&Request::Stream { every: 1 });

@@ -1,16 +1,13 @@
 //! Sensors, converter and their wires fail while the board is armed.
 
+use sprag_board_image::model::Model;
 use sprag_board_image::peripheral::spi::Wire;
-use sprag_board_image::rig::{Rig, image};
+use sprag_board_image::rig::Rig;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::Request;
-use sprag_shared::settings::Settings;
 
 fn armed() -> Rig {
-    let mut rig = Rig::new(&image(), Some(&Settings::default()));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!(state.phase, Phase::Armed, "{:?}", state.fault);
+    let mut rig = Rig::armed(Model::F405);
     rig.ticks(100);
     rig
 }

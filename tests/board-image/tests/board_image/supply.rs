@@ -16,9 +16,7 @@ fn armed(model: Model) -> Rig {
     let mut settings = Settings::default();
     settings.set(Item::SafeState.index(), 0).expect("in range");
     let mut rig = Rig::new(&image_for(model), Some(&settings));
-    rig.boot();
-    let state = rig.wait(4000, |state| state.phase == Phase::Armed);
-    assert_eq!(state.phase, Phase::Armed, "{:?}", state.fault);
+    rig.arm();
     // The pull-in is over.
     rig.ticks(100);
     rig
