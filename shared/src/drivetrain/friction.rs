@@ -12,7 +12,8 @@ use crate::math::scalar::{Real, Scalar};
 use crate::math::sign::Sign;
 use crate::math::value::Value;
 
-/// Two flywheels, a friction clutch on each, that obey Eq. 10; with `DRAG` while it is open.
+/// Two flywheels, a friction clutch on each, that obey Eq. 10; with `DRAG` while it is open, which flow and guards leave out without: at
+/// events a drag of zero changes nothing.
 pub struct FrictionPair<const DRAG: bool>;
 
 /// Force of the plates that slip, on the rack; 1/s².
@@ -50,8 +51,8 @@ pub fn slip<S: Scalar, V: Value<S>, B: Body<S>>(at: &PointOf<'_, S, B, V, 2>, si
 
 impl<S: Real> EventContext<'_, S> {
     /// Stick or slip where the plates run at one speed.
-    fn stick_or_slip<const DRAG: bool>(&mut self, wheel: usize) {
-        let force = force_if_locked(&FrictionPair::<DRAG>, self, wheel);
+    fn stick_or_slip(&mut self, wheel: usize) {
+        let force = force_if_locked(&FrictionPair::<true>, self, wheel);
         let rack = self.rack_speed();
         let clutch = &mut self.device.wheels[wheel];
         clutch.spin = rack;
@@ -63,10 +64,10 @@ impl<S: Real> EventContext<'_, S> {
     }
 
     /// Plates that touch at any speed of the flywheel.
-    fn meet<const DRAG: bool>(&mut self, wheel: usize) {
+    fn meet(&mut self, wheel: usize) {
         let slip = self.rack_speed() - self.device.wheels[wheel].spin;
         if slip == S::ZERO {
-            self.stick_or_slip::<DRAG>(wheel);
+            self.stick_or_slip(wheel);
         } else {
             self.slip(wheel, Sign::of(slip, Sign::Positive));
         }
@@ -84,9 +85,7 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
     const HOLDS: bool = true;
 
     fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
-        if DRAG {
-            parameters.add_dashpots(law, device);
-        }
+        parameters.add_dashpots(law, device);
         for (i, wheel) in device.wheels.iter().enumerate() {
             match wheel.coupling {
                 Coupling::Locked => {
@@ -122,7 +121,7 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
 
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
         at.device.wheels[wheel].engaged_for = S::ZERO;
-        at.meet::<DRAG>(wheel);
+        at.meet(wheel);
     }
 
     fn reached(&self, at: &mut EventContext<'_, S>, watch: Guard<S>) {
@@ -130,11 +129,11 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
             Guard::Slip(_, wheel) => {
                 let (wheel, other) = (wheel & 1, 1 - (wheel & 1));
                 let both = at.device.wheels[other].coupling == Coupling::Locked;
-                at.stick_or_slip::<DRAG>(wheel);
+                at.stick_or_slip(wheel);
                 if both {
                     // What joins changes the force on what sticks already, and that the force on what joins.
-                    at.stick_or_slip::<DRAG>(other);
-                    at.stick_or_slip::<DRAG>(wheel);
+                    at.stick_or_slip(other);
+                    at.stick_or_slip(wheel);
                 }
             }
             Guard::Capacity(..) => {
@@ -147,18 +146,12 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
                     }
                 }
             }
-            _ => {
-                if DRAG {
-                    at.overcome_friction(watch);
-                }
-            }
+            _ => at.overcome_friction(watch),
         }
     }
 
     fn settle(&self, at: &mut EventContext<'_, S>) {
-        if DRAG {
-            at.settle_dashpots();
-        }
+        at.settle_dashpots();
         for wheel in 0..2 {
             match at.device.wheels[wheel].coupling {
                 Coupling::Locked => {
@@ -168,7 +161,7 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
                         at.slip(wheel, Sign::of(force, Sign::Positive));
                     }
                 }
-                Coupling::Slipping(_) => at.meet::<DRAG>(wheel),
+                Coupling::Slipping(_) => at.meet(wheel),
                 _ => {}
             }
         }
@@ -194,6 +187,6 @@ impl<S: Real, const DRAG: bool> Transmission<S, 2, 3> for FrictionPair<DRAG> {
                 account.spent.clutch = account.spent.clutch + account.force[i] * (rack - at.unknowns[i]);
             }
         }
-        if DRAG { dashpot::with_dashpots(account, at, device) } else { account }
+        dashpot::with_dashpots(account, at, device)
     }
 }
