@@ -1,37 +1,63 @@
 //! Studies over many motions or places.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use serde_json::Value;
 
 use super::{SHORT_SCENE, errors, pulse, said, scene, sprag};
+
+/// A scene with a record of its own, and three more records: in the middle one that cannot be read.
+fn inputs(folder: &Path) -> (String, [String; 3]) {
+    let file = |name: &str, text: &str| {
+        let path = folder.join(name);
+        fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    file("own.csv", &pulse(0.28));
+    let records = [file("weak.csv", &pulse(0.25)), file("bad.csv", BAD), file("strong.csv", &pulse(-0.3))];
+    (file("short.toml", SHORT_SCENE), records)
+}
+
+/// A record that cannot be read.
+const BAD: &str = "# time_s,acc_g\n0,0\n0.01,NaN\n";
+
+fn names_the_bad_record(output: &Output) {
+    let message = said(output);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("bad.csv") && errors(&message).len() == 1, "{message}");
+}
+
+/// Runs `line` on one thread and on three, looks at each run, and expects the same bytes in `files`; where one wrote them, and its summary.
+fn on_any_threads(folder: &Path, line: &[&str], look: impl Fn(&Output), files: &[&str]) -> (PathBuf, Value) {
+    let [out, other] = ["1", "3"].map(|threads| {
+        let out = folder.join(threads);
+        look(&sprag(&[line, &["--threads", threads, "--out", out.to_str().unwrap()]].concat()));
+        out
+    });
+    for name in files {
+        let [one, other] = [&out, &other].map(|out| fs::read(out.join(name)).unwrap());
+        assert!(one == other && !one.is_empty(), "{name}");
+    }
+    let summary = summary(&out);
+    (out, summary)
+}
+
+fn summary(out: &Path) -> Value {
+    serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap()
+}
 
 #[test]
 fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
     let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path.to_str().unwrap().to_owned()
-    };
-    let (scene, bad) = (file("short.toml", SHORT_SCENE), file("bad.csv", "# time_s,acc_g\n0,0\n0.01,NaN\n"));
-    let records = [file("weak.csv", &pulse(0.25)), file("strong.csv", &pulse(-0.3)), file("own.csv", &pulse(0.28))];
-    let outs = ["1", "3"].map(|threads| {
-        let out = folder.path().join(threads);
-        let line = ["sensitivity", &scene, "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
-        let output = sprag(&[&line[..], &[&records[0], &bad, &records[1]]].concat());
-        let message = said(&output);
-        assert_eq!(output.status.code(), Some(1), "{message}");
-        assert!(message.contains("bad.csv") && errors(&message).len() == 1, "{message}");
-        out
-    });
-    for name in ["summary.json", "sensitivity.csv", "sensitivity.md", "sensitivity.svg"] {
-        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(one == other && !one.is_empty(), "{name}");
-    }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let (scene, [weak, bad, strong]) = inputs(folder.path());
+    let line = ["sensitivity", &scene, "--records", &weak, &bad, &strong];
+    let files = ["summary.json", "sensitivity.csv", "sensitivity.md", "sensitivity.svg"];
+    let (out, summary) = on_any_threads(folder.path(), &line, names_the_bad_record, &files);
     let files: Vec<&str> = summary["records"].as_array().unwrap().iter().map(|record| record["file"].as_str().unwrap()).collect();
-    assert_eq!(files, ["own.csv", &records[0], &records[1]]);
-    let table = fs::read_to_string(outs[0].join("sensitivity.csv")).unwrap();
+    assert_eq!(files, ["own.csv", &weak, &strong]);
+    let table = fs::read_to_string(out.join("sensitivity.csv")).unwrap();
     let rows: Vec<&str> = table.lines().filter(|row| row.contains(",kinematics,consistent,")).collect();
     assert_eq!(rows.len(), 3, "{table}");
     assert!(rows[0].starts_with("own motion,inerter,") && rows[2].starts_with("strong,inerter,"), "{rows:?}");
@@ -40,37 +66,16 @@ fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record()
 #[test]
 fn design_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
     let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path.to_str().unwrap().to_owned()
-    };
-    let (scene, bad) = (file("short.toml", SHORT_SCENE), file("bad.csv", "# time_s,acc_g\n0,0\n0.01,NaN\n"));
-    let records = [file("weak.csv", &pulse(0.25)), file("strong.csv", &pulse(-0.3)), file("own.csv", &pulse(0.28))];
-    let design = |threads: &str, more: &[&str]| {
-        let out = folder.path().join(threads);
-        let line =
-            ["design", &scene, "--set", "block.mass_kg=8000", "--set", "device.0.kind=clutched-pair", "--threads", threads];
-        let records = ["--out", out.to_str().unwrap(), "--records", &records[0], &bad, &records[1]];
-        (sprag(&[&line[..], more, &records].concat()), out)
-    };
-    let outs = ["1", "3"].map(|threads| {
-        let (output, out) = design(threads, &[]);
-        let message = said(&output);
-        assert_eq!(output.status.code(), Some(1), "{message}");
-        assert!(message.contains("bad.csv") && errors(&message).len() == 1, "{message}");
-        out
-    });
-    for name in ["summary.json", "parts.csv", "motions.csv", "delays.csv", "design.md", "delay.svg"] {
-        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(one == other && !one.is_empty(), "{name}");
-    }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let (scene, [weak, bad, strong]) = inputs(folder.path());
+    let mut line = vec!["design", &scene, "--set", "block.mass_kg=8000", "--set", "device.0.kind=clutched-pair"];
+    line.extend(["--records", &weak, &bad, &strong]);
+    let files = ["summary.json", "parts.csv", "motions.csv", "delays.csv", "design.md", "delay.svg"];
+    let (out, summary) = on_any_threads(folder.path(), &line, names_the_bad_record, &files);
     assert_eq!((&summary["basis"]["teeth"], summary["designs"].as_array().unwrap().len()), (&20.into(), 1));
-    let page = fs::read_to_string(outs[0].join("design.md")).unwrap();
+    let page = fs::read_to_string(out.join("design.md")).unwrap();
     assert!(page.contains("1 record could not be read") && page.contains("clutch, each"), "{page}");
     // Other assumptions are another design, which does not replace this one unasked.
-    let (output, _) = design("1", &["--teeth", "24"]);
+    let output = sprag(&[&line[..], &["--teeth", "24", "--threads", "1", "--out", out.to_str().unwrap()]].concat());
     assert_eq!(output.status.code(), Some(2));
     assert!(said(&output).contains("basis.teeth differs"), "{}", said(&output));
 }
@@ -78,31 +83,18 @@ fn design_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
 #[test]
 fn cloud_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
     let folder = tempfile::tempdir().unwrap();
-    let records = folder.path().join("records");
-    fs::create_dir_all(&records).unwrap();
-    for (number, peak) in [0.2, 0.25, -0.3, 0.35, 0.4, -0.5, 0.7].into_iter().enumerate() {
-        fs::write(records.join(format!("{number}.csv")), pulse(peak)).unwrap();
+    let records = folder_of_pulses(folder.path());
+    for (name, record) in [("5.csv", &*pulse(0.25)), ("6.csv", &pulse(0.35)), ("bad.csv", BAD)] {
+        fs::write(Path::new(&records).join(name), record).unwrap();
     }
-    fs::write(records.join("bad.csv"), "# time_s,acc_g\n0,0\n0.01,NaN\n").unwrap();
-    let outs = ["1", "3"].map(|threads| {
-        let out = folder.path().join(threads);
-        let line = ["cloud", &scene("cloud"), "--threads", threads, "--out", out.to_str().unwrap(), "--records"];
-        let output = sprag(&[&line[..], &[records.to_str().unwrap()]].concat());
-        let message = said(&output);
-        assert_eq!(output.status.code(), Some(1), "{message}");
-        assert!(message.contains("bad.csv") && errors(&message).len() == 1, "{message}");
-        out
-    });
-    let names = ["summary.json", "runs.csv", "demand.csv", "demand.md", "demand.svg", "fragility.csv", "fragility.md"];
-    for name in names.into_iter().chain(["fragility.svg", "ranking.csv", "ranking.md"]) {
-        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(one == other && !one.is_empty(), "{name}");
-    }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let mut files = vec!["summary.json", "runs.csv", "demand.csv", "demand.md", "demand.svg", "fragility.csv", "fragility.md"];
+    files.extend(["fragility.svg", "ranking.csv", "ranking.md"]);
+    let line = ["cloud", &scene("cloud"), "--records", &records];
+    let (out, summary) = on_any_threads(folder.path(), &line, names_the_bad_record, &files);
     assert_eq!((&summary["command"], &summary["structures"][1]["scene"]["block"]["size_m"]), (&"cloud".into(), &1.0.into()));
     assert_eq!(summary["records"].as_array().unwrap().len(), 7);
     assert_eq!(summary["runs"].as_array().unwrap().len(), 3 * 3);
-    let table = fs::read_to_string(outs[0].join("runs.csv")).unwrap();
+    let table = fs::read_to_string(out.join("runs.csv")).unwrap();
     assert_eq!(table.lines().count(), 1 + 7 * 3 * 3);
     assert!(table.starts_with("record,structure,device,scale,level,uniform_duration,pgv,"), "{table}");
 }
@@ -121,32 +113,26 @@ pub(super) fn folder_of_pulses(folder: &Path) -> String {
 fn optimise_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let records = folder_of_pulses(folder.path());
-    let outs = ["1", "3"].map(|threads| {
-        let out = folder.path().join(threads);
-        let line = ["optimise", &scene("optimise"), "--threads", threads, "--out", out.to_str().unwrap(), "--records", &records];
-        let output = sprag(&line);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let table = String::from_utf8(output.stdout).unwrap();
-        assert!(table.contains("\nbare block") && table.contains("\nbest") && table.contains("5 motions"), "{table}");
-        out
-    });
-    let mut files: Vec<_> = fs::read_dir(&outs[0]).unwrap().map(|file| file.unwrap().file_name()).collect();
-    files.sort();
+    let line = ["optimise", &scene("optimise"), "--records", &records];
     let choice = ["choice.md", "choice.png", "choice.svg"];
     let tables = ["designs.csv", "designs.parquet", "motions.csv", "motions.parquet"];
-    assert_eq!(files, [&choice[..], &tables, &["optimise.md", "summary.json", "trade_off.png", "trade_off.svg"]].concat());
-    for name in &files {
-        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(one == other && !one.is_empty(), "{name:?}");
-    }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let files = [&choice[..], &tables, &["optimise.md", "summary.json", "trade_off.png", "trade_off.svg"]].concat();
+    let look = |output: &Output| {
+        assert!(output.status.success(), "{}", said(output));
+        let table = String::from_utf8_lossy(&output.stdout);
+        assert!(table.contains("\nbare block") && table.contains("\nbest") && table.contains("5 motions"), "{table}");
+    };
+    let (out, summary) = on_any_threads(folder.path(), &line, look, &files);
+    let mut written: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name()).collect();
+    written.sort();
+    assert_eq!(written, files);
     assert_eq!((&summary["command"], &summary["reference"]["law"]), (&"optimise".into(), &"none".into()));
     assert_eq!(summary["structure"]["scene"]["block"]["size_m"], 1.0);
     assert_eq!(summary["study"]["optimise"]["limit_quantile"], 1.0);
     for key in ["law", "mount", "mass_ratio", "probability", "probability_band", "peak_force_ratio", "stroke_m", "feasible"] {
         assert!(!summary["best"][key].is_null(), "{key}: {}", summary["best"]);
     }
-    let table = fs::read_to_string(outs[0].join("designs.csv")).unwrap();
+    let table = fs::read_to_string(out.join("designs.csv")).unwrap();
     assert_eq!(table.lines().count() as u64, 2 + summary["designs"].as_u64().unwrap());
 }
 
@@ -167,7 +153,7 @@ fn an_optimisation_without_a_device_within_the_limit_writes_its_results_and_says
     );
     assert!(message.contains("left out: rigid, base-corners: "), "{message}");
     assert!(String::from_utf8_lossy(&output.stdout).contains("nearest to the limits"));
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    let summary = summary(&out);
     assert!(summary["best"].is_null() && summary["nearest"]["demand_over_limit"].as_f64().unwrap() > 1.0);
 }
 
@@ -188,8 +174,7 @@ fn a_refined_map_has_its_boundaries_on_any_number_of_threads() {
         let [one, two] = [&one, &two].map(|out| fs::read(out.join(name)).unwrap());
         assert!(!one.is_empty() && one == two, "{name}");
     }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(one.join("summary.json")).unwrap()).unwrap();
-    for run in summary["runs"].as_array().unwrap() {
+    for run in summary(&one)["runs"].as_array().unwrap() {
         let refined = &run["refined"];
         assert!(refined["evaluations"] == 1500 && refined["vertices"].as_u64().unwrap() > 10, "{refined}");
         assert!(refined["unresolved_squares"].as_u64().unwrap() > 0 && refined["unresolved_relative_width"].is_number());
