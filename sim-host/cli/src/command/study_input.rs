@@ -26,13 +26,13 @@ pub struct StudyArguments {
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Change one value of the study's scene, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.
+    /// Change one value in every structure of the study, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
 }
 
 impl StudyArguments {
-    /// The study, with one more `change` of its scene.
+    /// The study, with one more `change` of its structures.
     ///
     /// # Errors
     /// [`StudyError`].

@@ -35,10 +35,10 @@ fn file_of<S: serde::Serializer>(scene: &Scene, serializer: S) -> Result<S::Ok, 
     SceneFile::serialize(&scene.file, serializer)
 }
 
-/// The structures of `file`, a study called `origin` in `folder`.
+/// The structures of `file`, a study called `origin` in `folder`; `overrides` win over what each of them sets.
 ///
 /// # Errors
-/// [`StudyError`] names the scene, or the structure and what its scene may be.
+/// [`StudyError`] names the scene, the structure and what its scene may be, or what of `overrides` would make structures the same.
 pub(super) fn structures(
     file: &StudyFile,
     origin: &str,
@@ -58,14 +58,23 @@ pub(super) fn structures(
     if file.structure.len() > MOST_STRUCTURES {
         return Err(key("structure").range(file.structure.len() as f64, "at most 64 tables").into());
     }
+    for given in overrides.iter().filter_map(|item| Some(item.split_once('=')?.0.trim())) {
+        let of_structures = || file.structure.iter().map(|table| table.set.get(given));
+        if of_structures().any(|value| Some(value) != of_structures().next()) {
+            let setting = file.structure.iter().filter(|table| table.set.contains_key(given));
+            let names: Vec<String> = setting.map(|table| format!("{:?}", table.name)).collect();
+            let reason = format!("structures differ in it, as set by {}; change it in the study", names.join(", "));
+            return Err(key(&format!("--set {given}")).conflict(&reason).into());
+        }
+    }
     let mut structures: Vec<StudyStructure> = Vec::new();
     for (index, table) in file.structure.iter().enumerate() {
         if table.name.is_empty() || structures.iter().any(|other| other.name == table.name) {
             let reason = "each structure needs a name of its own";
             return Err(key(&format!("structure.{index}.name")).conflict(reason).into());
         }
-        let mut all = overrides.to_vec();
-        all.extend(table.set.iter().map(|(key, value)| format!("{key}={value}")));
+        let own = table.set.iter().map(|(key, value)| format!("{key}={value}"));
+        let all: Vec<String> = own.chain(overrides.iter().cloned()).collect();
         let of_structure = |error| StudyError::Structure { origin: origin.to_owned(), index, error: Box::new(error) };
         let scene = load(&all).map_err(of_structure)?;
         structures.push(structure(table.name.clone(), scene).map_err(of_structure)?);

@@ -63,8 +63,8 @@ pub enum StudyError {
 }
 
 impl Study {
-    /// Reads the study at `path`; `overrides` (`KEY=VALUE`) change its scene before each structure does, and `records` take the
-    /// place of its own, relative to where the user stands.
+    /// Reads the study at `path`; `overrides` (`KEY=VALUE`) change the scene of every structure, and `records` take the place of its
+    /// own, relative to where the user stands.
     ///
     /// # Errors
     /// [`StudyError`] names the file, the key and what it may be.

@@ -56,6 +56,24 @@ fn structures_change_the_scene() {
 }
 
 #[test]
+fn the_command_line_wins_over_structures_unless_these_differ() {
+    let with = |structures: &str, change: &str| {
+        let text = format!("{RECORDS}{structures}");
+        Study::parse(&text, "study.toml", Path::new(""), &[change.to_owned()], &[]).map_err(|error| error.to_string())
+    };
+    let small = "[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1 }\n";
+    let also_small = "[[structure]]\nname = 'heavy'\nset = { 'block.size_m' = 1, 'device.1.mass_ratio' = 1.0 }";
+    for structures in [small.to_owned(), format!("{small}{also_small}")] {
+        let study = with(&structures, " block.size_m = 3").unwrap();
+        assert!(study.structures.iter().all(|structure| structure.scene.file.block.size_m == Some(3.0)));
+    }
+    assert_eq!(
+        with(&format!("{small}{also_small}"), "device.1.mass_ratio=0.5").unwrap_err(),
+        "study.toml: --set device.1.mass_ratio: structures differ in it, as set by \"heavy\"; change it in the study"
+    );
+}
+
+#[test]
 fn what_is_wrong_is_named_with_its_key_and_range() {
     for (keys, expected) in [
         ("scale = [0.0]", "scale.0 is 0, but must be above 0, to 1000"),
