@@ -194,7 +194,7 @@ impl GroundTable {
         };
         for (name, is_given) in given {
             if is_given && !optional.contains(&name) && !one_of_each.iter().any(|group| group.contains(&name)) {
-                return Err(key(name).conflict(&format!("a motion of kind {} has no such key", self.kind())));
+                return Err(key(name).conflict(&format!("a motion of kind {:?} has no such key", self.kind())));
             }
         }
         for group in one_of_each {
@@ -214,11 +214,9 @@ impl GroundTable {
         Ok(())
     }
 
-    fn kind(&self) -> String {
-        format!(
-            "{:?}",
-            serde_json::to_value(self.motion).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
-        )
+    /// Its motion as scenes name it.
+    pub fn kind(&self) -> String {
+        serde_json::to_value(self.motion).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
     }
 
     /// The motion's smooth pieces, for the block of `scene`; what was read of a record goes to `records`.

@@ -6,7 +6,9 @@ use serde::Serialize;
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::scene::Scene;
-use sprag_sim::scene::ground::{GroundTable, Motion};
+use sprag_sim::scene::ground::{Direction, GroundError, GroundTable, Motion};
+
+use crate::cloud::measure::{BlockScales, MeasuredRecord, Measure};
 
 /// Relative difference up to which two groups count as equal.
 pub const SAME: f64 = 1e-9;
@@ -16,7 +18,7 @@ pub const SAME: f64 = 1e-9;
 pub struct Group {
     /// Its symbol; with the number of the ground motion or the name of the device where it belongs to one.
     pub name: String,
-    /// Its value; none where it has no meaning, such as the frequency of a record.
+    /// Its value; none where it has no meaning, such as the factor of a support that has a record of its own.
     pub value: Option<f64>,
 }
 
@@ -32,19 +34,29 @@ impl Group {
     }
 }
 
-/// The groups of `scene`: those of every pulse, then those of every device.
+/// Why a scene's groups cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum GroupsError {
+    /// A restitution that the block cannot have.
+    #[error("{0}")]
+    Block(#[from] ParameterError),
+    /// A record that cannot be read.
+    #[error("{0}")]
+    Ground(#[from] GroundError),
+}
+
+/// The groups of `scene`: those of every motion of the ground, then those of every device.
 ///
 /// # Errors
-/// [`ParameterError`] for a restitution that the block cannot have.
-pub fn groups(scene: &Scene) -> Result<Vec<Group>, ParameterError> {
-    let (p, threshold) = (scene.block.frequency_parameter(), scene.uplift_threshold());
-    let tangent = if scene.geometry() == Geometry::Slender { "α" } else { " tan α" };
+/// [`GroupsError`] for a restitution that the block cannot have, or a record that cannot be read.
+pub fn groups(scene: &Scene) -> Result<Vec<Group>, GroupsError> {
+    let p = scene.block.frequency_parameter();
     let mut groups = Vec::new();
     for (index, table) in scene.file.ground.iter().enumerate() {
-        let of = |symbol: &str| format!("{symbol} of ground {index}");
-        groups.push(Group::new(of("ω_g/p"), frequency(table, p)));
-        groups.push(Group::new(of(&format!("a_g/(g{tangent})")), amplitude(table, threshold)));
-        groups.push(Group::new(of("p × start"), table.start_s * p));
+        groups.extend(of_motion(scene, Direction::Horizontal, index, table)?);
+    }
+    for (index, table) in scene.file.vertical.iter().enumerate() {
+        groups.extend(of_motion(scene, Direction::Vertical, index, table)?);
     }
     for index in 0..scene.devices.len() {
         let structure = scene.structure(index);
@@ -70,31 +82,45 @@ fn structure_name(scene: &Scene, index: usize) -> String {
     format!("device {index} ({})", scene.file.device[index].kind.name())
 }
 
-fn frequency(table: &GroundTable, p: f64) -> Option<f64> {
-    match (table.frequency_ratio, table.frequency_hz, table.duration_ratio, table.duration_s) {
-        (Some(ratio), ..) => Some(ratio),
-        (_, Some(hertz), ..) => Some(hertz * TAU / p),
-        // A rectangular pulse, by the half sine of its length.
-        (.., Some(ratio), _) => Some(0.5 * TAU / ratio),
-        (.., Some(seconds)) => Some(0.5 * TAU / (seconds * p)),
-        _ => None,
+/// The groups of one motion; a record has those of its peaks. A vertical motion is one in g.
+fn of_motion(scene: &Scene, direction: Direction, index: usize, table: &GroundTable) -> Result<Vec<Group>, GroupsError> {
+    let (place, threshold, unit) = match (direction, scene.geometry()) {
+        (Direction::Vertical, _) => ("vertical", 1.0, "g"),
+        (_, Geometry::Slender) => ("ground", scene.uplift_threshold(), "(gα)"),
+        _ => ("ground", scene.uplift_threshold(), "(g tan α)"),
+    };
+    let p = scene.block.frequency_parameter();
+    let group = |symbol: &str, value| Group::new(format!("{symbol} of {place} {index} ({})", table.kind()), value);
+    let mut groups = if table.motion == Motion::Record {
+        let key = |key: &str| scene.key(&format!("{place}.{index}.{key}"));
+        let record = MeasuredRecord::from(table.record(scene, direction, &key)?);
+        let scales = BlockScales { frequency_parameter_1_s: p, uplift_threshold_m_s2: threshold * GRAVITY };
+        let of = |measure: Measure| measure.of(&record, 1.0, scales);
+        vec![group("PGA/(p PGV)", of(Measure::Frequency)), group(&format!("PGA/{unit}"), of(Measure::Pga) * table.scale)]
+    } else {
+        vec![group("ω_g/p", frequency(table, p)), group(&format!("a_g/{unit}"), amplitude(table, p, threshold))]
+    };
+    if let Some(oscillations) = table.oscillations {
+        groups.extend([group("γ", oscillations), group("ν", table.phase_deg.unwrap_or_default())]);
     }
+    groups.push(group("p × start", table.start_s * p));
+    Ok(groups)
 }
 
-fn amplitude(table: &GroundTable, threshold: f64) -> Option<f64> {
-    let ratio = match (table.amplitude_ratio, table.amplitude_g, table.amplitude_m_s2) {
-        (Some(ratio), ..) => ratio,
-        (_, Some(g), _) => g / threshold,
-        (.., Some(m_s2)) => m_s2 / GRAVITY / threshold,
-        _ if table.motion == Motion::Record => return None,
-        _ => {
-            // A = v ω: the pulse's velocity amplitude with its frequency.
-            let speed = table.velocity_amplitude_m_s?;
-            let rate = table.frequency_hz? * TAU;
-            speed * rate / GRAVITY / threshold
-        }
-    };
-    Some(ratio * table.scale)
+/// ω_g/p of a pulse; of a rectangular one by the half sine of its length.
+fn frequency(table: &GroundTable, p: f64) -> f64 {
+    let duration = || table.duration_ratio.unwrap_or_else(|| table.duration_s.unwrap_or_default() * p);
+    let hertz = table.frequency_hz.map(|hertz| hertz * TAU / p);
+    table.frequency_ratio.or(hertz).unwrap_or_else(|| 0.5 * TAU / duration())
+}
+
+/// a_g of a pulse over `threshold` (in g).
+fn amplitude(table: &GroundTable, p: f64, threshold: f64) -> f64 {
+    let rate = || table.frequency_hz.map_or_else(|| frequency(table, p) * p, |hertz| hertz * TAU);
+    // a_g = A ω: the velocity amplitude of a near-fault pulse with its frequency.
+    let of_velocity = || table.velocity_amplitude_m_s.unwrap_or_default() * rate();
+    let in_g = || table.amplitude_g.unwrap_or_else(|| table.amplitude_m_s2.unwrap_or_else(of_velocity) / GRAVITY);
+    table.amplitude_ratio.unwrap_or_else(|| in_g() / threshold) * table.scale
 }
 
 /// Names of the groups that two blocks do not have in common with the same value.
@@ -165,6 +191,56 @@ mod tests {
         };
         let (small, large) = (of(1.0), of(4.0));
         let different: Vec<&str> = small.iter().zip(&large).filter(|(a, b)| !a.equals(b)).map(|(a, _)| a.name.as_str()).collect();
-        assert_eq!(different, ["ω_g/p of ground 0"]);
+        assert_eq!(different, ["ω_g/p of ground 0 (sine)"]);
+    }
+
+    /// A record has groups too: another factor, another block and another motion are each told, and the same one is not.
+    #[test]
+    fn records_have_groups_of_their_peaks() {
+        let of = |block: &str, ground: &str| {
+            let text = format!(
+                "block = {{ {block}, slenderness_deg = 10.0 }}\ndevice = [{{ kind = 'none' }}]\n\
+                 ground = [{{ motion = 'record', file = 'near_fault.csv', {ground} }}]\n\
+                 vertical = [{{ motion = 'sine', amplitude_g = 0.1, frequency_ratio = 3.0 }}]"
+            );
+            let mut scene = Scene::parse(&text, "scene").unwrap();
+            scene.folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes").into();
+            groups(&scene).unwrap()
+        };
+        let first = of("size_m = 2.0", "scale = 1.0");
+        for (block, ground, names) in [
+            ("size_m = 2.0", "scale = 1.0", &[][..]),
+            ("size_m = 2.0", "scale = 1.5", &["PGA/(g tan α) of ground 0 (record)"]),
+            ("size_m = 2.0", "scale = -1.0", &["PGA/(g tan α) of ground 0 (record)"]),
+            ("size_m = 8.0", "scale = 1.0", &["PGA/(p PGV) of ground 0 (record)"]),
+            ("size_m = 2.0", "resample_to_s = 0.1", &["PGA/(p PGV) of ground 0 (record)", "PGA/(g tan α) of ground 0 (record)"]),
+        ] {
+            assert_eq!(unequal(&first, &of(block, ground)), names, "{block}, {ground}");
+        }
+    }
+
+    /// Every number of a near-fault pulse and of a vertical motion is one of a group, and so is the kind of a pulse.
+    #[test]
+    fn groups_tell_one_motion_from_another() {
+        let of = |ground: &str, vertical: &str| {
+            let text = format!(
+                "block = {{ size_m = 2.0, slenderness_deg = 10.0 }}\ndevice = [{{ kind = 'none' }}]\n\
+                 ground = [{{ {ground} }}]\nvertical = [{{ motion = 'sine', frequency_hz = 2.0, {vertical} }}]"
+            );
+            groups(&Scene::parse(&text, "scene").unwrap()).unwrap()
+        };
+        let pulse = |numbers: &str| format!("motion = 'mavroeidis-papageorgiou', {numbers}");
+        let near_fault = pulse("velocity_amplitude_m_s = 0.5, frequency_ratio = 2.0, oscillations = 2.0, phase_deg = 30.0");
+        let first = of(&near_fault, "amplitude_g = 0.1");
+        for (ground, vertical, expected) in [
+            (near_fault.replace("0.5", "0.6"), "amplitude_g = 0.1", "a_g/(g tan α) of ground 0 (mavroeidis-papageorgiou)"),
+            (near_fault.replace("oscillations = 2", "oscillations = 3"), "amplitude_g = 0.1", "γ of ground 0 (mavroeidis-papageorgiou)"),
+            (near_fault.replace("30.0", "60.0"), "amplitude_g = 0.1", "ν of ground 0 (mavroeidis-papageorgiou)"),
+            (near_fault.clone(), "amplitude_g = 0.2", "a_g/g of vertical 0 (sine)"),
+        ] {
+            assert_eq!(unequal(&first, &of(&ground, vertical)), [expected]);
+        }
+        let of_kind = |kind: &str| of(&format!("motion = '{kind}', amplitude_ratio = 2.0, frequency_ratio = 3.0"), "amplitude_g = 0.1");
+        assert!(unequal(&of_kind("sine"), &of_kind("cosine")).contains(&"ω_g/p of ground 0 (cosine)"));
     }
 }
