@@ -99,8 +99,8 @@ impl Study {
     }
 
     /// What is said of them.
-    fn say(&self, dict: &Bound<'_, PyDict>, records: &StudyRecords, left_out: &[String]) -> PyResult<()> {
-        let warnings = [self.study.warnings(), records.warnings()].concat();
+    fn say(&self, dict: &Bound<'_, PyDict>, more: Vec<String>, records: &StudyRecords, left_out: &[String]) -> PyResult<()> {
+        let warnings = [more, self.study.warnings(), records.warnings()].concat();
         dict.set_item("warnings", warnings)?;
         dict.set_item("unreadable", &records.unreadable)?;
         dict.set_item("left_out", left_out)
@@ -142,7 +142,7 @@ pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyR
     let dict = columns::tables(py, tables)?;
     dict.set_item("findings", findings)?;
     dict.set_item("accuracy", worst)?;
-    study.say(&dict, &records, &left_out)?;
+    study.say(&dict, Vec::new(), &records, &left_out)?;
     Ok(dict)
 }
 
@@ -175,14 +175,14 @@ pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> 
             let left_out = [&problem.choices.left_out[..], &problem.left_out, &solution.failures].concat();
             let worst = serde_json::to_string(&solution.worst).map_err(refused)?;
             let findings = serde_json::to_string(&findings).map_err(refused)?;
-            Ok((tables, findings, worst, left_out, records))
+            Ok((tables, findings, worst, left_out, problem.choices.warnings(), records))
         })
     })?;
-    let (tables, findings, worst, left_out, records) = made?;
+    let (tables, findings, worst, left_out, of_mounts, records) = made?;
     let dict = columns::tables(py, tables)?;
     dict.set_item("findings", findings)?;
     dict.set_item("accuracy", worst)?;
-    study.say(&dict, &records, &left_out)?;
+    study.say(&dict, of_mounts, &records, &left_out)?;
     Ok(dict)
 }
 

@@ -132,7 +132,7 @@ impl Run for OptimiseArguments {
         let mut folder = self.output.folder_at(&self.input.study, "optimise", &self.accuracy)?;
         let study = self.input.load(None)?;
         let pool = self.threads.pool()?;
-        Choices::of(&study)?;
+        let of_mounts = context.warned(Choices::of(&study)?.warnings());
         // Records do not depend on how accurately they are followed.
         let (records, warnings) = self.input.read(&study, study.file.has_pulses(), &pool, context)?;
         let interrupt = context.interrupt;
@@ -144,7 +144,7 @@ impl Run for OptimiseArguments {
         let findings = Findings::of(&problem, solution);
         context.check_interrupt()?;
         let left_out = [&problem.choices.left_out[..], &problem.left_out, &solution.failures].concat();
-        fill(&mut report, &answered, &problem, &findings, (&left_out, &warnings))?;
+        fill(&mut report, &answered, &problem, &findings, (&left_out, &[of_mounts, warnings].concat()))?;
         if findings.best.is_none() {
             let why = match &findings.nearest {
                 Some(_) => format!("no device respects {}", limits(&problem.choices)),

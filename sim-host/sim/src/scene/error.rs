@@ -105,6 +105,17 @@ impl KeyPath {
         SceneError::Conflict { origin: self.origin, key: self.key, reason: reason.to_owned() }
     }
 
+    /// Refuses a list that has one of its `values` twice.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] at the second of them.
+    pub fn once<T: PartialEq>(self, values: &[T]) -> Result<(), SceneError> {
+        match (1..values.len()).find(|&index| values[..index].contains(&values[index])) {
+            Some(index) => Err(KeyPath { key: format!("{}.{index}", self.key), ..self }.conflict("this value is there already")),
+            None => Ok(()),
+        }
+    }
+
     /// `value`, if finite and `allowed`.
     ///
     /// # Errors

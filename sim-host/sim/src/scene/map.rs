@@ -87,10 +87,7 @@ impl MapTable {
                 return Err(key("map.y.key").conflict("the two axes need different keys"));
             }
         }
-        if let Some(twice) = (1..self.laws.len()).find(|&index| self.laws[..index].contains(&self.laws[index])) {
-            return Err(key(&format!("map.laws.{twice}")).conflict("this law is there already"));
-        }
-        Ok(())
+        key("map.laws").once(&self.laws)
     }
 }
 

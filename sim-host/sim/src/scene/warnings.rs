@@ -81,14 +81,16 @@ impl Scene {
         lines
     }
 
-    /// A mount above the block.
     fn of_mount(&self, device: &SceneDevice) -> Option<(String, String)> {
         let Mount::TyingPoint { height, .. } = device.device.mount else { return None };
+        Some(("mount_height_m".to_owned(), self.above_the_block(height)?))
+    }
+
+    /// What to say behind the key of a `height` above the block (m).
+    pub fn above_the_block(&self, height: f64) -> Option<String> {
         let top = 2.0 * self.block.size() * math::cos(self.block.slenderness());
-        (height > top * (1.0 + ROUNDING)).then(|| {
-            let reason = format!(" is {}: above the block, whose top is at 2R cos α = {} m", Number(height), number(top));
-            ("mount_height_m".to_owned(), reason)
-        })
+        (height > top * (1.0 + ROUNDING))
+            .then(|| format!(" is {}: above the block, whose top is at 2R cos α = {} m", Number(height), number(top)))
     }
 
     /// An inertance far above the mass.

@@ -120,13 +120,7 @@ impl Study {
         if file.measures.is_empty() {
             return Err(key("measures").missing("one measure to rank or more").into());
         }
-        let mut seen = Vec::new();
-        file.measures.retain(|measure| {
-            !seen.contains(measure) && {
-                seen.push(*measure);
-                true
-            }
-        });
+        key("measures").once(&file.measures)?;
         let bootstrap = bootstrap(&file, &key)?;
         let reading = reading(&file.record, &structures[0].scene, &key)?;
         let origin = origin.to_owned();
@@ -167,7 +161,7 @@ fn names(scene: &Scene) -> Vec<String> {
 
 fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> KeyPath) -> Result<Scaling, SceneError> {
     let check = |name: &str, values: &[f64]| match values.len() {
-        1..=MOST_SCALES => Ok(()),
+        1..=MOST_SCALES => key(name).once(values),
         count => Err(key(name).range(count as f64, "a list of 1 to 1000 numbers")),
     };
     match (&file.scale, &file.stripes) {

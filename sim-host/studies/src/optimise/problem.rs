@@ -16,6 +16,7 @@ use super::delay::try_late;
 use super::design::{Candidate, Design, Responses, Score};
 use super::limit::Limits;
 use super::motion::{Motion, motions};
+use super::mount::MountEntry;
 use super::objective::Objective;
 use super::pulse::{Pulse, pulses};
 use super::response::Response;
@@ -81,6 +82,14 @@ impl<'a> Choices<'a> {
         };
         let pulses = pulses(&table.pulse, &structure.scene, &key)?;
         Ok(Choices { study, structure, table, curves, pulses, limits, left_out })
+    }
+
+    /// What looks like a mistake in its mounts, in a line each, as in those of a scene ([`Scene::warnings`]).
+    pub fn warnings(&self) -> Vec<String> {
+        let reason = |mount: &MountEntry| self.structure.scene.above_the_block(mount.described().mount_height_m?);
+        let of_mounts = self.table.mounts.iter().enumerate().filter_map(|(index, mount)| Some((index, reason(mount)?)));
+        let origin = &self.study.origin;
+        of_mounts.map(|(index, reason)| format!("{origin}: optimise.mounts.{index}.mount_height_m{reason}")).collect()
     }
 }
 

@@ -116,6 +116,9 @@ pub(super) fn pulses(tables: &[PulseTable], scene: &Scene, key: &KeyOf<'_>) -> R
         if table.motion == Kind::Record {
             return Err(of_pulse("motion").conflict("records are `records` of the study"));
         }
+        for (name, values, _) in table.keys() {
+            of_pulse(name).once(values.as_deref().unwrap_or_default())?;
+        }
         for (name, ground) in table.tables() {
             ground.check(Direction::Horizontal, &of_pulse)?;
             let mut shaken = scene.clone();

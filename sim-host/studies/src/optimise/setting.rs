@@ -71,6 +71,7 @@ pub(super) fn with_settings(
     let mut of_laws: Vec<(String, Vec<Law>)> = laws.into_iter().map(|law| (law.name.clone(), vec![law])).collect();
     for (index, setting) in settings.iter().enumerate() {
         let of_setting = |name: &str| key(&format!("setting.{index}.{name}"));
+        of_setting("values").once(&setting.values)?;
         if let Some(unknown) = setting.laws.iter().find(|name| !of_laws.iter().any(|(law, _)| law == *name)) {
             let names: Vec<String> = of_laws.iter().map(|(law, _)| format!("{law:?}")).collect();
             return Err(of_setting("laws").outside(format!("{unknown:?}"), &format!("among the laws {}", names.join(", "))));

@@ -35,6 +35,15 @@ fn a_study_without_the_table_has_the_devices_of_its_scene() {
     assert!(grid.windows(3).all(|three| (three[1] * three[1] / (three[0] * three[2]) - 1.0).abs() < 1e-14));
 }
 
+/// The top of the block of 2 m is at 3.94 m.
+#[test]
+fn a_mount_above_the_block_is_warned_of() {
+    let point = |height: f64| format!("{{ mount = 'tying-point', mount_height_m = {height} }}");
+    let study = study(&format!("[optimise]\nmounts = ['centre-of-mass', {}, {}]", point(3.9), point(39.0)));
+    let line = "study.toml: optimise.mounts.2.mount_height_m is 39: above the block, whose top is at 2R cos α = 3.9392 m";
+    assert_eq!(Choices::of(&study).unwrap().warnings(), [line]);
+}
+
 #[test]
 fn laws_are_devices_of_the_scene_or_ideal_ones() {
     let study = study(
@@ -137,6 +146,14 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
         ("structure = 'tall'", "optimise.structure is \"tall\", but must be among the structures"),
         ("laws = ['magic']", "optimise.laws.0 is \"magic\", but must be among \"inerter\", \"clutched-pair\", \"rigid\""),
         ("laws = ['none']", "optimise.laws.0: the device \"none\" of the scene has no inerter"),
+        (
+            "pulse = [{ motion = 'sine', amplitude_ratio = [2, 2], frequency_ratio = [3] }]",
+            "optimise.pulse.0.amplitude_ratio.1: this value is there already",
+        ),
+        (
+            "setting = [{ key = 'clutch.capacity_ratio', values = [0.1, 0.1] }]",
+            "optimise.setting.0.values.1: this value is there already",
+        ),
         ("laws = ['rigid', 'rigid']", "optimise.laws.1: \"rigid\" is there twice"),
         ("mounts = ['tying-point']", "optimise.mounts.0.mount_height_m is missing: the height of the tying point"),
         ("mounts = ['base-corners', 'base-corners']", "optimise.mounts.1: \"base-corners\" is there twice"),
