@@ -162,7 +162,7 @@ pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> 
             if problem.motions.is_empty() {
                 return Err(missing("records", problem.left_out.first().map_or("a motion", String::as_str)));
             }
-            let solution = problem.solve(&mut (), interrupt, &|_| (), &|| ()).map_err(stopped)?;
+            let solution = problem.solve(&mut (), interrupt, &|_| (), &|_| ()).map_err(stopped)?;
             if solution.designs.iter().all(|design| design.score.motions == 0) {
                 let first = solution.failures.first().cloned().unwrap_or_default();
                 return Err(failed(format_args!("no device could be tried; {first}")));

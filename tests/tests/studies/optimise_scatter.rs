@@ -22,7 +22,7 @@ fn study(set: &str, optimise: &str, records: Option<&Path>) -> Study {
 fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
     let records = StudyRecords::read(study).unwrap();
     let problem = Problem::new(Choices::of(study).unwrap(), &records.records);
-    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|| ()).unwrap();
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
     assert!(solution.failures.is_empty(), "{:?}", solution.failures);
     let findings = Findings::of(&problem, &solution);
     then(&problem, &solution, &findings)

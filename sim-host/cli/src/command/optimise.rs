@@ -183,7 +183,7 @@ fn answered<'a>(
     let inputs = arguments.input.files(&study, records);
     let names = &["designs", "motions", "optimise", "choice", "delay", "trade_off"];
     folder.open(&Claim { subject: subject.clone(), page: "summary.json", names, inputs })?;
-    let (begin, done) = (|runs| progress.begin(runs), || progress.step());
+    let (begin, done) = (|runs| progress.begin(runs), |runs| progress.advance(runs));
     let (solution, tried) = if arguments.accuracy.is_chosen() {
         (problem.solve(&mut (), interrupt, &begin, &done)?, None)
     } else {

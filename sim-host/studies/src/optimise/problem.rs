@@ -185,8 +185,8 @@ impl<'a> Problem<'a> {
     }
 
     /// Tries designs on rayon's threads until the best is found, but for those that `memory` has of an earlier search. `begin` is given
-    /// runs to come, as often as there are more; `done` is called after each. Neither the number of threads nor their order changes a
-    /// bit of the solution.
+    /// runs to come, as often as there are more; `done` those that are done, once `memory` keeps them. Neither the number of threads nor
+    /// their order changes a bit of the solution.
     ///
     /// # Errors
     /// [`RunError::Interrupted`], and those of `memory`; runs that fail are among [`Solution::failures`].
@@ -195,7 +195,7 @@ impl<'a> Problem<'a> {
         memory: &mut M,
         interrupt: &Interrupt,
         begin: &dyn Fn(u64),
-        done: &(dyn Fn() + Sync),
+        done: &dyn Fn(u64),
     ) -> Result<Solution, M::Error> {
         let Choices { table, curves, limits, .. } = &self.choices;
         let objective = self.objective();
@@ -222,16 +222,17 @@ impl<'a> Problem<'a> {
         batch: &[Option<Candidate>],
         memory: &mut M,
         interrupt: &Interrupt,
-        (begin, done): (&dyn Fn(u64), &(dyn Fn() + Sync)),
+        (begin, done): (&dyn Fn(u64), &dyn Fn(u64)),
     ) -> Result<Vec<Responses>, M::Error> {
         let mut found: Vec<Option<Responses>> = batch.iter().map(|of| memory.recall(*of)).collect();
         let new: Vec<usize> = (0..batch.len()).filter(|&index| found[index].is_none()).collect();
         begin((new.len() * self.trials()) as u64);
         for together in new.chunks(TOGETHER) {
             let subjects: Vec<_> = together.iter().map(|&index| self.subjects(batch[index])).collect();
-            for (&index, responses) in together.iter().zip(self.respond(&subjects, interrupt, done)?) {
+            for (&index, responses) in together.iter().zip(self.respond(&subjects, interrupt)?) {
                 memory.keep(batch[index], &responses)?;
                 found[index] = Some(responses);
+                done(self.trials() as u64);
             }
         }
         Ok(found.into_iter().flatten().collect())
@@ -254,12 +255,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Responses of the specimens of every design to every motion, by design, then by specimen.
-    fn respond(
-        &self,
-        designs: &[Result<Vec<Subject>, String>],
-        interrupt: &Interrupt,
-        done: &(dyn Fn() + Sync),
-    ) -> Result<Vec<Responses>, RunError> {
+    fn respond(&self, designs: &[Result<Vec<Subject>, String>], interrupt: &Interrupt) -> Result<Vec<Responses>, RunError> {
         let subjects: Vec<Result<&Subject, &String>> = designs
             .iter()
             .flat_map(|design| match design {
@@ -269,9 +265,7 @@ impl<'a> Problem<'a> {
             .collect();
         let in_lanes = |subject: &Result<&Subject, &String>| match subject {
             Ok(subject) if !interrupt.is_set() => {
-                let found: Vec<_> = self.motions.par_chunks(IN_LANES).flat_map_iter(|some| subject.in_lanes(some)).collect();
-                found.iter().flatten().for_each(|_| done());
-                found
+                self.motions.par_chunks(IN_LANES).flat_map_iter(|some| subject.in_lanes(some)).collect()
             }
             _ => vec![None; self.motions.len()],
         };
@@ -286,9 +280,7 @@ impl<'a> Problem<'a> {
                 if interrupt.is_set() {
                     return Err(RunError::Interrupted.to_string());
                 }
-                let response = (*subject).map_err(String::clone)?.respond(ground.get_or_init(|| motion.ground()), interrupt);
-                done();
-                response
+                (*subject).map_err(String::clone)?.respond(ground.get_or_init(|| motion.ground()), interrupt)
             };
             subjects.par_iter().zip(&in_lanes).map(run).collect()
         };
