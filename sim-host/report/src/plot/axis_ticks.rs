@@ -111,8 +111,10 @@ impl Axis {
         };
         let inside = |value: &f64| *value >= within.start - 1e-9 && *value <= within.end + 1e-9;
         match self.scale {
-            Scale::Linear => {
-                let values = round_ticks(&within, target, self.margin);
+            Scale::Linear | Scale::Whole => {
+                let mut values = round_ticks(&within, target, self.margin);
+                // Of steps below one, those that are whole.
+                values.retain(|value| self.scale == Scale::Linear || (value - value.round()).abs() < 1e-9);
                 let step = step(&values);
                 let label = |at| Label { at, text: TickText::plain(tick_text(at, step)) };
                 AxisTicks { labelled: values.into_iter().map(label).collect(), minor: Vec::new() }
@@ -143,7 +145,9 @@ impl Axis {
         let same = inner.iter().find(|label| self.px(label.at - at(number)).abs() < 1e-6);
         let text = same.map_or_else(
             || match self.scale {
-                Scale::Linear => TickText::number(number, step(&inner.iter().map(|label| label.at).collect::<Vec<_>>())),
+                Scale::Linear | Scale::Whole => {
+                    TickText::number(number, step(&inner.iter().map(|label| label.at).collect::<Vec<_>>()))
+                }
                 Scale::Logarithmic => TickText::number(number, 1.0),
             },
             |label| label.text.clone(),
@@ -232,6 +236,16 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn counts_have_whole_ticks() {
+        for (first, last) in [(-0.05, 1.05), (-0.1, 2.1), (-0.5, 0.5), (2.9, 4.1), (-1.0, 21.0), (-15.0, 315.0)] {
+            let axis = Axis { ends: None, ..axis(Scale::Whole, (first, last), 0.0, Way::Up, 300.0) };
+            let ticks = axis.ticks();
+            let texts: Vec<String> = ticks.labelled.iter().map(|label| label.text.svg()).collect();
+            assert!(!texts.is_empty() && texts.iter().all(|text| !text.contains('.')), "{first} to {last}: {texts:?}");
         }
     }
 }

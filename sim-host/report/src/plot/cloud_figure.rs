@@ -95,7 +95,7 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
         .collect::<Result<_, _>>()?;
     let x = range(panels.iter().flatten().flat_map(CloudSeries::intensities), figure.scales.0).ok_or_else(nothing)?;
     // Intensities are not below zero.
-    let x = if figure.scales.0 == Scale::Linear { x.start.max(0.0)..x.end } else { x };
+    let x = if figure.scales.0 != Scale::Logarithmic { x.start.max(0.0)..x.end } else { x };
 
     let columns = figure.columns.clamp(1, figure.panels.len().max(1));
     let panel_px = PANEL_SIZES_PX[columns.min(PANEL_SIZES_PX.len()) - 1];
@@ -119,7 +119,7 @@ pub fn cloud_figure(figure: &CloudFigure) -> Result<String, PlotError> {
 /// The range of an axis that shows `values`; `None` without any.
 fn range(values: impl Iterator<Item = f64>, scale: Scale) -> Option<Range<f64>> {
     match scale {
-        Scale::Linear => axis_range(values, scale),
+        Scale::Linear | Scale::Whole => axis_range(values, scale),
         Scale::Logarithmic => close_range(values),
     }
 }

@@ -124,7 +124,7 @@ impl Panel<'_> {
         let inside = |height: &&f64| self.y.contains(*height);
         let line = |height: &f64| path_through([self.x.start, self.x.end].map(|at| self.position_px((at, *height))));
         // The zero of a logarithmic axis is a one.
-        if self.scales.1 == Scale::Linear && inside(&&0.0) {
+        if self.scales.1 != Scale::Logarithmic && inside(&&0.0) {
             write_path(svg, &line(&0.0), Stroke { width_px: GUIDE_PX, ..Stroke::solid(GUIDE) });
         }
         let path: String = self.guides.iter().filter(inside).map(line).collect();

@@ -12,6 +12,8 @@ pub enum Scale {
     /// Equal steps of the value.
     #[default]
     Linear,
+    /// Equal steps of a count: ticks are whole numbers.
+    Whole,
     /// Equal steps of its decimal logarithm, for positive values.
     Logarithmic,
 }
@@ -20,7 +22,7 @@ impl Scale {
     /// Where `value` is on an axis: its decimal logarithm on a logarithmic one, where only positive values are.
     pub(super) fn place(self, value: f64) -> Option<f64> {
         match self {
-            Scale::Linear => Some(value),
+            Scale::Linear | Scale::Whole => Some(value),
             Scale::Logarithmic => (value > 0.0).then(|| math::log10(value)),
         }
     }
@@ -52,7 +54,7 @@ pub(super) fn axis_range(values: impl Iterator<Item = f64>, scale: Scale) -> Opt
     if low > high {
         return None;
     }
-    if scale == Scale::Linear {
+    if scale != Scale::Logarithmic {
         if low > 0.0 && low < ZERO_WITHIN * high {
             low = 0.0;
         } else if high < 0.0 && high > ZERO_WITHIN * low {

@@ -2,7 +2,7 @@
 
 use super::curve::write_curve;
 use super::layer::{write_area, write_disc};
-use super::legend::{LegendEntry, Swatch};
+use super::legend::{DrawMark, LegendEntry, Swatch};
 use super::marker::{device_marker, write_chosen, write_chosen_key};
 use super::palette::{FRONT, GUIDE, INK, Stroke, device_look, guide_stroke};
 use super::panel::{LEFT_LABELS_PX, Panel};
@@ -109,6 +109,10 @@ impl TradeOffFigure {
         let mut others = vec![(Swatch::Line(FRONT_STROKE), "Pareto front".to_owned())];
         if any(|panel| panel.limit.is_some()) {
             others.push((Swatch::Line(LIMIT_STROKE), "limit".to_owned()));
+        }
+        if any(|panel| panel.series.iter().flatten().any(|point| !point.marked)) {
+            let dot: DrawMark = |svg, at| write_disc(svg, at, DOT_PX, INK, "");
+            others.push((Swatch::Drawn(dot), "tried later, near a limit or the best".to_owned()));
         }
         if any(|panel| panel.series.iter().flatten().any(|point| !point.counts)) {
             others.push((Swatch::Mark(device_marker(0), GUIDE), "left out of the front".to_owned()));
@@ -240,9 +244,14 @@ mod tests {
     #[test]
     fn marks_are_where_they_are_asked_for() {
         let svg = trade_off_figure(&figure(1)).unwrap();
-        // Four of the first series' designs and its legend entry, dots of both, the grey mark of the legend, and the ring of the choice
-        // here and in the legend.
-        assert_eq!(svg.matches("<circle").count(), (4 + 1) + (4 + 2) + 1 + 2);
+        // Four of the first series' designs and its legend entry, dots of both and of the legend, the grey mark of the legend, and the ring
+        // of the choice here and in the legend.
+        assert_eq!(svg.matches("<circle").count(), (4 + 1) + (4 + 2 + 1) + 1 + 2);
+        assert!(svg.contains(">tried later, near a limit or the best<"));
+        // No dots, no entry.
+        let mut lines = figure(1);
+        lines.panels[0].series.iter_mut().flatten().for_each(|point| point.marked = true);
+        assert!(!trade_off_figure(&lines).unwrap().contains("tried later"));
     }
 
     #[test]

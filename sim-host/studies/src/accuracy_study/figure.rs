@@ -1,42 +1,114 @@
 //! Work-precision diagrams: the error against what it costs.
 
-use sprag_report::plot::{Chart, ChartKey, ChartPanel, Line, LineLook, PlotError, Scale, chart_figure};
+use sprag_report::plot::{Chart, ChartKey, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 use sprag_sim::scene::accuracy::EventTreatment;
 
+use super::looks::{Colours, METHODS, SOURCES};
 use super::row::Row;
 use super::variant::{Family, Method, Number, Setting};
 
 /// Errors below this are drawn at it: a result may be exact by chance.
 const SMALLEST_ERROR: f64 = 1e-17;
 
-/// What is drawn against what.
-type Point = fn(&Row) -> Option<(f64, f64)>;
-
-/// The line of every family of `wanted`, in each device's panel.
-fn panels(
-    rows: &[Row],
-    devices: &[String],
-    wanted: impl Fn(&Family) -> bool,
+/// A figure of a study.
+struct Plan {
+    /// Name of its file without the ending.
+    name: &'static str,
+    /// What it shows, behind the title of the study.
+    shows: &'static str,
+    /// Titles of its axes.
+    axes: [&'static str; 2],
+    /// The families in it.
+    wanted: fn(&Family) -> bool,
+    /// What its colours stand for.
     colours: Colours,
-    point: Point,
-    y_title: &str,
-) -> Vec<ChartPanel> {
-    let panel = |(index, name): (usize, &String)| {
-        let mut lines: Vec<(Family, Line)> = Vec::new();
-        for row in rows.iter().filter(|row| row.device == index && wanted(&row.variant.family())) {
-            let family = row.variant.family();
-            let Some((x, y)) = point(row) else { continue };
-            let known = lines.iter().position(|(known, _)| *known == family).unwrap_or_else(|| {
-                let (name, label) = (family.to_string(), family.to_string());
-                lines.push((family, Line { name, label, look: Some(colours.look(&family)), marks: true, ..Line::default() }));
-                lines.len() - 1
-            });
-            lines[known].1.points.push((x, y.max(SMALLEST_ERROR)));
+    /// What is drawn against what.
+    point: fn(&Row) -> Option<(f64, f64)>,
+    /// Smallest height of a point: lower ones are drawn at it; 0 leaves out those that are not above it.
+    least: f64,
+}
+
+impl Plan {
+    /// The rows that have a point, with it.
+    fn points<'a>(&self, rows: &'a [Row]) -> impl Iterator<Item = (&'a Row, (f64, f64))> {
+        let wanted = rows.iter().filter(|row| (self.wanted)(&row.variant.family()));
+        wanted.filter_map(|row| Some((row, (self.point)(row)?)))
+    }
+
+    /// Those that are drawn.
+    fn drawn<'a>(&self, rows: &'a [Row]) -> impl Iterator<Item = (&'a Row, (f64, f64))> {
+        self.points(rows).map(|(row, (x, y))| (row, (x, y.max(self.least)))).filter(|(_, (_, y))| *y > 0.0)
+    }
+
+    /// What to say of the points that are not where they belong, which a logarithmic axis cannot show.
+    fn note(&self, rows: &[Row]) -> Option<String> {
+        match self.points(rows).filter(|(_, (_, y))| *y < self.least || *y == 0.0).count() {
+            0 => None,
+            count if self.least > 0.0 => Some(format!("{count} errors below {:e} are drawn at it", self.least)),
+            count => Some(format!("{count} points at 0 are not drawn")),
         }
-        let lines = lines.into_iter().map(|(_, line)| line).collect();
-        ChartPanel { title: name.clone(), y_title: y_title.to_owned(), y: Scale::Logarithmic, lines }
-    };
-    devices.iter().enumerate().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
+    }
+
+    /// The line of every family, in each device's panel.
+    fn panels(&self, rows: &[Row], devices: &[String]) -> Vec<ChartPanel> {
+        let panel = |(index, name): (usize, &String)| {
+            let mut lines: Vec<(Family, Line)> = Vec::new();
+            for (row, point) in self.drawn(rows).filter(|(row, _)| row.device == index) {
+                let family = row.variant.family();
+                let known = lines.iter().position(|(known, _)| *known == family).unwrap_or_else(|| {
+                    let (name, label) = (family.to_string(), family.to_string());
+                    lines.push((
+                        family,
+                        Line { name, label, look: Some(self.colours.look(&family)), marks: true, ..Line::default() },
+                    ));
+                    lines.len() - 1
+                });
+                lines[known].1.points.push(point);
+            }
+            let lines = lines.into_iter().map(|(_, line)| line).collect();
+            ChartPanel { title: name.clone(), y_title: self.axes[1].to_owned(), y: Scale::Logarithmic, lines }
+        };
+        devices.iter().enumerate().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
+    }
+
+    /// What the looks of the lines stand for.
+    fn keys(&self, rows: &[Row]) -> Vec<Vec<ChartKey>> {
+        let families: Vec<Family> = self.drawn(rows).map(|(row, _)| row.variant.family()).collect();
+        let any = |is: &dyn Fn(&Family) -> bool| families.iter().any(is);
+        let mut rows = [Vec::new(), Vec::new()];
+        match self.colours {
+            Colours::Methods => {
+                let used = METHODS.iter().enumerate().filter(|(_, (method, _))| any(&|family| family.method == *method));
+                rows[0].extend(used.map(|(index, (_, name))| ChartKey::Colour(index, (*name).to_owned())));
+                let treatments = [(EventTreatment::Located, "events located"), (EventTreatment::StepEnd, "events at step ends")];
+                let used = treatments.iter().enumerate().filter(|(_, (events, _))| any(&|family| family.events == *events));
+                rows[1].extend(used.map(|(index, (_, name))| ChartKey::Dashes(index, (*name).to_owned())));
+            }
+            Colours::Sources => {
+                let used = SOURCES.iter().enumerate().filter(|(_, source)| any(&|family| family.number.math() == **source));
+                rows[0]
+                    .extend(used.map(|(index, source)| ChartKey::Colour(index, format!("sine: {}", source.replace('-', " ")))));
+            }
+        }
+        let precisions = [(false, "f64"), (true, "f32")];
+        let used = precisions.iter().filter(|(_, precision)| any(&|family| family.number.precision() == *precision));
+        rows[1].extend(used.map(|(open, precision)| ChartKey::Marks(*open, (*precision).to_owned())));
+        rows.to_vec()
+    }
+
+    /// The figure; none where nothing can be drawn.
+    fn figure(&self, title: &str, rows: &[Row], devices: &[String]) -> Option<Result<Figure, PlotError>> {
+        let mut panels = self.panels(rows, devices);
+        for panel in panels.iter_mut().filter(|_| self.name == WORK_PRECISION) {
+            let device = devices.iter().position(|name| *name == panel.title).unwrap_or(0);
+            panel.lines.push(front(rows, device));
+        }
+        let columns = panels.len().min(2);
+        let title = FigureTitle { text: format!("{title}: {}", self.shows), conditions: self.note(rows).into_iter().collect() };
+        let (x_title, x, keys) = (self.axes[0].to_owned(), Scale::Logarithmic, self.keys(rows));
+        let chart = Chart { title, x_title, x, panels, columns, keys };
+        (!chart.panels.is_empty()).then(|| Ok((self.name, chart_figure(&chart)?)))
+    }
 }
 
 /// The dashed line of the ways that no other one beats.
@@ -50,73 +122,6 @@ fn front(rows: &[Row], device: usize) -> Line {
     Line { name: "Pareto front".to_owned(), points, guide: true, ..Line::default() }
 }
 
-/// What colours stand for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Colours {
-    /// Methods; dashes for the treatment of events.
-    Methods,
-    /// Sources of the sine, of one method.
-    Sources,
-}
-
-impl Colours {
-    /// The look of the line of `family`; it has circles for f32.
-    fn look(self, family: &Family) -> LineLook {
-        let open = family.number.precision() == "f32";
-        match self {
-            Colours::Methods => {
-                let colour = METHODS.iter().position(|(method, _)| *method == family.method).unwrap_or(0);
-                LineLook { colour, dashes: usize::from(family.events == EventTreatment::StepEnd), open }
-            }
-            Colours::Sources => {
-                let colour = SOURCES.iter().position(|source| *source == family.number.math()).unwrap_or(0);
-                LineLook { colour, dashes: 0, open }
-            }
-        }
-    }
-}
-
-/// Methods in the order of their colours.
-const METHODS: [(Method, &str); 4] = [
-    (Method::Taylor, "Taylor series"),
-    (Method::RungeKutta4, "Runge-Kutta 4"),
-    (Method::SemiImplicitEuler, "semi-implicit Euler"),
-    (Method::ClosedForm, "closed form"),
-];
-
-/// Sources of the sine in the order of their colours.
-const SOURCES: [&str; 3] = ["libm", "own-polynomial", "micromath"];
-
-/// What the looks of `wanted` families stand for.
-fn keys(rows: &[Row], wanted: impl Fn(&Family) -> bool, colours: Colours) -> Vec<Vec<ChartKey>> {
-    let families: Vec<Family> = rows.iter().map(|row| row.variant.family()).filter(wanted).collect();
-    let any = |is: &dyn Fn(&Family) -> bool| families.iter().any(is);
-    let mut rows = [Vec::new(), Vec::new()];
-    match colours {
-        Colours::Methods => {
-            let used = METHODS.iter().enumerate().filter(|(_, (method, _))| any(&|family| family.method == *method));
-            rows[0].extend(used.map(|(index, (_, name))| ChartKey::Colour(index, (*name).to_owned())));
-            let treatments = [(EventTreatment::Located, "events located"), (EventTreatment::StepEnd, "events at step ends")];
-            let used = treatments.iter().enumerate().filter(|(_, (events, _))| any(&|family| family.events == *events));
-            rows[1].extend(used.map(|(index, (_, name))| ChartKey::Dashes(index, (*name).to_owned())));
-        }
-        Colours::Sources => {
-            let used = SOURCES.iter().enumerate().filter(|(_, source)| any(&|family| family.number.math() == **source));
-            rows[0].extend(used.map(|(index, source)| ChartKey::Colour(index, format!("sine: {}", source.replace('-', " ")))));
-        }
-    }
-    let precisions = [(false, "f64"), (true, "f32")];
-    let used = precisions.iter().filter(|(_, precision)| any(&|family| family.number.precision() == *precision));
-    rows[1].extend(used.map(|(open, precision)| ChartKey::Marks(*open, (*precision).to_owned())));
-    rows.to_vec()
-}
-
-fn chart(title: &str, x_title: &str, panels: Vec<ChartPanel>, keys: Vec<Vec<ChartKey>>) -> Option<Result<String, PlotError>> {
-    let columns = panels.len().min(2);
-    let chart = Chart { title: title.into(), x_title: x_title.to_owned(), x: Scale::Logarithmic, panels, columns, keys };
-    (!chart.panels.is_empty()).then(|| chart_figure(&chart))
-}
-
 /// A figure by the name of its file without the ending.
 pub type Figure = (&'static str, String);
 
@@ -125,63 +130,72 @@ pub type Figure = (&'static str, String);
 /// # Errors
 /// [`PlotError`].
 pub fn figures(title: &str, rows: &[Row], devices: &[String]) -> Result<Vec<Figure>, PlotError> {
-    let own = |family: &Family| matches!(family.number, Number::F64Libm | Number::F32Own);
-    let f64s = |family: &Family| family.number == Number::F64Libm;
-    let by_time: Point = |row| Some((row.nanoseconds, row.peak_error?));
-    let peak = "error of max |*θ*|/α";
-    let mut precision = panels(rows, devices, own, Colours::Methods, by_time, peak);
-    for panel in &mut precision {
-        let device = devices.iter().position(|name| *name == panel.title).unwrap_or(0);
-        panel.lines.push(front(rows, device));
-    }
-    let x_time = "host: ns to a simulated second";
-    let by_step: Point = |row| match row.variant.setting {
+    PLANS.iter().filter_map(|plan| plan.figure(title, rows, devices)).collect()
+}
+
+const WORK_PRECISION: &str = "work_precision";
+const PEAK_ERROR: &str = "error of max |*θ*|/α";
+const HISTORY_ERROR: &str = "max |Δ*θ*|/α";
+const HOST_TIME: &str = "host: ns to a simulated second";
+const STEP: &str = "step in 1/*p*";
+
+const PLANS: [Plan; 5] = [
+    Plan {
+        name: WORK_PRECISION,
+        shows: "error against time",
+        axes: [HOST_TIME, PEAK_ERROR],
+        wanted: own,
+        colours: Colours::Methods,
+        point: |row| Some((row.nanoseconds, row.peak_error?)),
+        least: SMALLEST_ERROR,
+    },
+    Plan {
+        name: "order",
+        shows: "error of the history against the step",
+        axes: [STEP, HISTORY_ERROR],
+        wanted: |family| family.number == Number::F64Libm,
+        colours: Colours::Methods,
+        point: by_step,
+        least: SMALLEST_ERROR,
+    },
+    Plan {
+        name: "sines",
+        shows: "precision and source of the sine",
+        axes: [STEP, HISTORY_ERROR],
+        wanted: |family| family.method == Method::RungeKutta4 && family.events == EventTreatment::StepEnd,
+        colours: Colours::Sources,
+        point: by_step,
+        least: SMALLEST_ERROR,
+    },
+    Plan {
+        name: "wrong_outcomes",
+        shows: "outcomes gone wrong",
+        axes: [HOST_TIME, "share of cells"],
+        wanted: own,
+        colours: Colours::Methods,
+        point: |row| Some((row.nanoseconds, row.wrong_share?)),
+        least: 0.0,
+    },
+    Plan {
+        name: "board",
+        shows: "error against time on the board",
+        axes: ["Cortex-M4F: cycles to a simulated second", PEAK_ERROR],
+        wanted: |_| true,
+        colours: Colours::Methods,
+        point: |row| Some((row.board?.cycles() * row.steps_per_second, row.peak_error?)),
+        least: SMALLEST_ERROR,
+    },
+];
+
+fn own(family: &Family) -> bool {
+    matches!(family.number, Number::F64Libm | Number::F32Own)
+}
+
+fn by_step(row: &Row) -> Option<(f64, f64)> {
+    match row.variant.setting {
         Setting::Step(step) => Some((step, row.history_error?)),
         Setting::Tolerance(_) => None,
-    };
-    let by_wrong: Point = |row| Some((row.nanoseconds, row.wrong_share.filter(|share| *share > 0.0)?));
-    let sines = |family: &Family| family.method == Method::RungeKutta4 && family.events == EventTreatment::StepEnd;
-    let by_cycles: Point = |row| Some((row.board?.cycles() * row.steps_per_second, row.peak_error?));
-    let charts = [
-        ("work_precision", chart(&format!("{title}: error against time"), x_time, precision, keys(rows, own, Colours::Methods))),
-        (
-            "order",
-            chart(
-                &format!("{title}: error of the history against the step"),
-                "step in 1/*p*",
-                panels(rows, devices, f64s, Colours::Methods, by_step, "max |Δ*θ*|/α"),
-                keys(rows, f64s, Colours::Methods),
-            ),
-        ),
-        (
-            "sines",
-            chart(
-                &format!("{title}: precision and source of the sine"),
-                "step in 1/*p*",
-                panels(rows, devices, sines, Colours::Sources, by_step, "max |Δ*θ*|/α"),
-                keys(rows, sines, Colours::Sources),
-            ),
-        ),
-        (
-            "wrong_outcomes",
-            chart(
-                &format!("{title}: outcomes gone wrong"),
-                x_time,
-                panels(rows, devices, own, Colours::Methods, by_wrong, "share of cells"),
-                keys(rows, own, Colours::Methods),
-            ),
-        ),
-        (
-            "board",
-            chart(
-                &format!("{title}: error against time on the board"),
-                "Cortex-M4F: cycles to a simulated second",
-                panels(rows, devices, |_| true, Colours::Methods, by_cycles, peak),
-                keys(rows, |_| true, Colours::Methods),
-            ),
-        ),
-    ];
-    charts.into_iter().filter_map(|(name, figure)| Some(figure?.map(|figure| (name, figure)))).collect()
+    }
 }
 
 #[cfg(test)]
@@ -236,19 +250,14 @@ mod tests {
         for (name, svg) in figures {
             assert_drawn(&svg);
             assert!(name == "order" || svg.contains(">f64<") && svg.contains(">f32<"), "{name}");
-        }
-    }
-
-    #[test]
-    fn looks_distinguish_methods_events_and_precisions() {
-        let families: Vec<Family> = variants(true, 0.0).iter().map(Variant::family).collect();
-        for one in &families {
-            for other in &families {
-                let looks = (Colours::Methods.look(one), Colours::Methods.look(other));
-                assert_eq!(looks.0.colour == looks.1.colour, one.method == other.method);
-                assert_eq!(looks.0.dashes == looks.1.dashes, one.events == other.events);
-                assert_eq!(looks.0.open == looks.1.open, one.number.precision() == other.number.precision());
-            }
+            // What a logarithmic axis cannot show is said, and what is not drawn is not in the legend.
+            let note = match name {
+                WORK_PRECISION => Some(">3 errors below 1e-17 are drawn at it<"),
+                "wrong_outcomes" => Some(">134 points at 0 are not drawn<"),
+                _ => None,
+            };
+            assert!(note.is_none_or(|note| svg.contains(note)), "{name}");
+            assert_eq!(svg.contains(">closed form<"), matches!(name, WORK_PRECISION | "order" | "board"), "{name}");
         }
     }
 }

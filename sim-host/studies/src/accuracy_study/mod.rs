@@ -7,6 +7,7 @@
 
 pub mod board;
 pub mod figure;
+mod looks;
 pub mod probe;
 pub mod report;
 pub mod row;

@@ -1,7 +1,7 @@
 //! `delay.svg`: what a delay of the clutches costs.
 
 use sprag_report::heading::of_blocks;
-use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, chart_figure};
+use sprag_report::plot::{Chart, ChartPanel, FigureTitle, Line, PlotError, Scale, chart_figure};
 
 use super::late::Late;
 use super::study::{Findings, PartsList, Problem};
@@ -37,7 +37,8 @@ pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Optio
     let title = &problem.scene.file.title;
     let mut rotation = panel("largest rotation, max |*θ*|/*α*", &|late| late.largest_rotation);
     rotation.lines.extend(findings.lists.iter().filter_map(most));
-    let panels = [rotation, panel("motions that overturn", &|late| Some(late.overturned as f64))];
+    let overturned = ChartPanel { y: Scale::Whole, ..panel("motions that overturn", &|late| Some(late.overturned as f64)) };
+    let panels = [rotation, overturned];
     let chart = Chart {
         title: FigureTitle {
             text: if title.is_empty() { "Delay of the clutches".to_owned() } else { format!("{title}: delay of the clutches") },

@@ -8,7 +8,7 @@ use sprag_shared::structure::error::ParameterError;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::ground::{Direction, GroundError, GroundTable, Motion};
 
-use crate::cloud::measure::{BlockScales, MeasuredRecord, Measure};
+use crate::cloud::measure::{BlockScales, Measure, MeasuredRecord};
 
 /// Relative difference up to which two groups count as equal.
 pub const SAME: f64 = 1e-9;
@@ -234,13 +234,18 @@ mod tests {
         let first = of(&near_fault, "amplitude_g = 0.1");
         for (ground, vertical, expected) in [
             (near_fault.replace("0.5", "0.6"), "amplitude_g = 0.1", "a_g/(g tan α) of ground 0 (mavroeidis-papageorgiou)"),
-            (near_fault.replace("oscillations = 2", "oscillations = 3"), "amplitude_g = 0.1", "γ of ground 0 (mavroeidis-papageorgiou)"),
+            (
+                near_fault.replace("oscillations = 2", "oscillations = 3"),
+                "amplitude_g = 0.1",
+                "γ of ground 0 (mavroeidis-papageorgiou)",
+            ),
             (near_fault.replace("30.0", "60.0"), "amplitude_g = 0.1", "ν of ground 0 (mavroeidis-papageorgiou)"),
             (near_fault.clone(), "amplitude_g = 0.2", "a_g/g of vertical 0 (sine)"),
         ] {
             assert_eq!(unequal(&first, &of(&ground, vertical)), [expected]);
         }
-        let of_kind = |kind: &str| of(&format!("motion = '{kind}', amplitude_ratio = 2.0, frequency_ratio = 3.0"), "amplitude_g = 0.1");
+        let of_kind =
+            |kind: &str| of(&format!("motion = '{kind}', amplitude_ratio = 2.0, frequency_ratio = 3.0"), "amplitude_g = 0.1");
         assert!(unequal(&of_kind("sine"), &of_kind("cosine")).contains(&"ω_g/p of ground 0 (cosine)"));
     }
 }
