@@ -4,13 +4,12 @@ use std::vec::Vec;
 
 use super::limits::engaging_at_speed;
 use super::maxwell::Swing;
-use super::{Watcher, pair, sine, structure, tight};
-use crate::ground::{AnySegment, Linear};
+use super::standing::pushed_by_a_flywheel;
+use super::{pair, sine, structure, tight};
 use crate::math::exp;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::Event;
-use crate::motion::state::{Limits, Phase};
+use crate::motion::state::Limits;
 use crate::observers::ledger::{Account, Clutching, Entries, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -114,40 +113,15 @@ fn between_open_and_locked_clutches() {
     }
 }
 
-/// A flywheel that coasts pushes the standing block through its open clutch: it uplifts when weight and ground let go of the rest of
-/// c (w + D/r) e^(−r t) − c D/r, with the brake in D.
+/// Through its open clutch.
 #[test]
 fn a_coasting_flywheel_pushes_a_standing_block() {
+    let structure = structure(Geometry::Slender, 10.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);
     for (dry_deceleration, brake_deceleration, push) in [(0.0, 0.0, 0.3), (0.0, 0.5, 0.9), (0.8, 0.0, 0.6), (0.3, 0.5, -0.5)] {
         for engagement in CLUTCHES {
-            let structure = structure(Geometry::Slender, 10.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);
-            let block = &structure.block;
-            let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), SIGMA / block.inertia_ratio());
-            let (drag_rate, viscous_rate) = (6.0, 0.5);
-            let (rate, dry) = (drag_rate + viscous_rate, (dry_deceleration + brake_deceleration) / block.size());
-            let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration, drag_rate };
-            let machine: HybridSystem<f64> = open(engagement, flywheel).resolve(&structure, false).unwrap();
-            let mut state = machine.at_rest();
-            let spin = push * p * p * alpha / (k * drag_rate);
-            state.device.wheels[1].spin = spin;
-            // The ground goes from nothing to 1.5 times the threshold, and the block to the positive side.
-            let (end, most) = (0.5, 1.5 * alpha);
-            let lifts = |time: f64| {
-                let left = (spin.abs() + dry / rate) * exp(-rate * time) - dry / rate;
-                p * p * (most * time / end - alpha) + k * drag_rate * left.max(0.0) * spin.signum()
-            };
-            let (mut low, mut high) = (0.0, end);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if lifts(middle) > 0.0 { high = middle } else { low = middle }
-            }
-            let ground = AnySegment::Linear(Linear { start: 0.0, slope: -most / end });
-            let mut nobody = ();
-            let mut watcher = Watcher::new(&mut nobody);
-            machine.advance(&tight(), &mut state, Shaking::level(&ground), end, &LIMITS, &mut watcher).unwrap();
-            assert_eq!(state.motion.phase, Phase::Rocking);
-            let uplift = watcher.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
-            assert!((uplift - low).abs() < 1e-9, "{engagement:?}, D = {dry}: {uplift} and {low}");
+            let flywheel = FlywheelLosses { viscous_rate: 0.5, dry_deceleration, brake_deceleration, drag_rate: 6.0 };
+            let (uplift, expected) = pushed_by_a_flywheel(&structure, &open(engagement, flywheel), (1, 6.0), push);
+            assert!((uplift - expected).abs() < 1e-9, "{engagement:?}, {flywheel:?}: {uplift} and {expected}");
         }
     }
 }

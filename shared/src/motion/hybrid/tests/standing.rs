@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::{Shake, pair, shake, sine, structure, tight};
+use super::{Shake, Watcher, pair, shake, sine, structure, tight};
 use crate::equation::body::Body;
 use crate::ground::{AnySegment, Linear};
 use crate::math;
@@ -11,8 +11,9 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::{BlockState, Limits};
+use crate::motion::state::{BlockState, Limits, Phase};
 use crate::observers::ledger::{Account, Clutching, Ledger};
+use crate::structure::Structure;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
@@ -31,6 +32,43 @@ fn bearings(engagement: Engagement) -> Drivetrain {
 fn plates(capacity_ratio: f64, rise_time: f64) -> Drivetrain {
     let actuation = Actuation { rise_time, ..Actuation::default() };
     Drivetrain { actuation, ..bearings(Engagement::Friction { capacity_ratio }) }
+}
+
+/// A slender block on ground whose acceleration grows from nothing to 1.5 times the threshold, for the positive side; flywheel `wheel`, behind
+/// a dashpot of rate c, turns so that it pushes the block by so much of the threshold. When the block uplifts, and when it should: as weight
+/// and ground let go of the rest of c (w + D/r) e^(−r t) − c D/r, with the brake in D.
+pub fn pushed_by_a_flywheel(
+    structure: &Structure,
+    drivetrain: &Drivetrain,
+    (wheel, dashpot): (usize, f64),
+    push: f64,
+) -> (f64, f64) {
+    let FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration, .. } = drivetrain.flywheel;
+    let block = &structure.block;
+    let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), structure.device.mass_ratio / block.inertia_ratio());
+    let (rate, dry) = (dashpot + viscous_rate, (dry_deceleration + brake_deceleration) / block.size());
+    let machine: HybridSystem<f64> = drivetrain.resolve(structure, false).unwrap();
+    let mut state = machine.at_rest();
+    let spin = push * p * p * alpha / (k * dashpot);
+    state.device.wheels[wheel].spin = spin;
+    let (end, most) = (0.5, 1.5 * alpha);
+    let lifts = |time: f64| {
+        let left = (spin.abs() + dry / rate) * math::exp(-rate * time) - dry / rate;
+        p * p * (most * time / end - alpha) + k * dashpot * left.max(0.0) * spin.signum()
+    };
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if lifts(middle) > 0.0 { high = middle } else { low = middle }
+    }
+    let ground = AnySegment::Linear(Linear { start: 0.0, slope: -most / end });
+    let mut nobody = ();
+    let mut watcher = Watcher::new(&mut nobody);
+    let limits = Limits { overturned: 1.5, events: 10_000 };
+    machine.advance(&tight(), &mut state, Shaking::level(&ground), end, &limits, &mut watcher).unwrap();
+    assert_eq!(state.motion.phase, Phase::Rocking);
+    let uplift = watcher.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
+    (uplift, low)
 }
 
 /// The push (in g) at which a ramp of ground acceleration moves a block at rest, with the clutches that a controller has `engaged` for

@@ -4,15 +4,15 @@ use std::vec::Vec;
 
 use super::limits::engaging_at_speed;
 use super::maxwell::Swing;
-use super::{Shake, Watcher, shake, structure, tight};
+use super::standing::pushed_by_a_flywheel;
+use super::{Shake, shake, structure, tight};
 use crate::drivetrain::clutch_state::Coupling;
-use crate::ground::{AnySegment, Linear};
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
-use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::{Limits, Phase};
+use crate::motion::observer::{MonotoneInterval, Observer};
+use crate::motion::state::Limits;
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -122,41 +122,17 @@ fn an_inerter_with_slip_by_two_methods_and_its_ledger() {
     }
 }
 
-/// A flywheel that still turns pushes the standing block through the slip: it uplifts when weight and ground let go of the rest of
-/// c (w + d/r) e^(−r t) − c d/r.
+/// Through the slip.
 #[test]
 fn a_flywheel_pushes_a_standing_block_as_long_as_it_turns() {
+    let structure = structure(Geometry::Slender, 10.0, DeviceKind::Inerter, SIGMA, KinematicsKind::Consistent);
     for (dry_deceleration, viscous_rate, push) in [(0.0, 0.0, 0.3), (0.0, 2.0, 0.9), (0.8, 1.0, 0.6), (0.8, 0.0, -0.5)] {
-        let structure = structure(Geometry::Slender, 10.0, DeviceKind::Inerter, SIGMA, KinematicsKind::Consistent);
-        let block = &structure.block;
-        let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), SIGMA / block.inertia_ratio());
-        let (corner, dry) = (6.0, dry_deceleration / block.size());
-        let rate = corner + viscous_rate;
         let flywheel = FlywheelLosses { viscous_rate, dry_deceleration, brake_deceleration: 0.0, drag_rate: 0.0 };
-        let machine: HybridSystem<f64> = Drivetrain { flywheel, ..slip(corner) }.resolve(&structure, false).unwrap();
-        let mut state = machine.at_rest();
-        assert_eq!(state.device.wheels[0].coupling, Coupling::Viscous);
-        let spin = push * p * p * alpha / (k * corner);
-        state.device.wheels[0].spin = spin;
-        // The ground goes from nothing to 1.5 times the threshold, and the block to the positive side.
-        let (end, most) = (0.5, 1.5 * alpha);
-        let lifts = |time: f64| {
-            let left = (spin.abs() + dry / rate) * crate::math::exp(-rate * time) - dry / rate;
-            p * p * (most * time / end - alpha) + k * corner * left.max(0.0) * spin.signum()
-        };
-        let (mut low, mut high) = (0.0, end);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if lifts(middle) > 0.0 { high = middle } else { low = middle }
-        }
-        let ground = AnySegment::Linear(Linear { start: 0.0, slope: -most / end });
-        let mut nobody = ();
-        let mut watcher = Watcher::new(&mut nobody);
-        let shaking = Shaking { horizontal: &ground, vertical: None, support: None };
-        machine.advance(&tight(), &mut state, shaking, end, &LIMITS, &mut watcher).unwrap();
-        assert_eq!(state.motion.phase, Phase::Rocking);
-        let uplift = watcher.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
-        assert!((uplift - low).abs() < 1e-9, "d = {dry_deceleration}: {uplift} and {low}");
+        let drivetrain = Drivetrain { flywheel, ..slip(6.0) };
+        let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+        assert_eq!(machine.at_rest().device.wheels[0].coupling, Coupling::Viscous);
+        let (uplift, expected) = pushed_by_a_flywheel(&structure, &drivetrain, (0, 6.0), push);
+        assert!((uplift - expected).abs() < 1e-9, "d = {dry_deceleration}: {uplift} and {expected}");
     }
 }
 
