@@ -95,6 +95,17 @@ impl ControllerTable {
 }
 
 impl<'a> LoopTask<'a> {
+    /// The loop of the first device of `scene` with a controller, its sensors and their seed, as closely as the scene says.
+    pub fn of(
+        scene: &'a Scene,
+        ground: &'a GroundMotions,
+        (controller, suite, seed): (&'a ControllerTable, &'a Suite, u64),
+        interrupt: &'a Interrupt,
+    ) -> LoopTask<'a> {
+        let closeness = scene.file.accuracy.level.map(Closeness::from);
+        LoopTask { scene, ground, index: 0, controller, suite, seed, closeness, interrupt }
+    }
+
     pub(super) fn task(&self) -> Task<'a> {
         let LoopTask { scene, ground, index, interrupt, .. } = *self;
         Task { scene, ground, index, interval: f64::INFINITY, reports: false, interrupt }

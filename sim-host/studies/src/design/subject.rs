@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 use sprag_shared::structure::drivetrain::Engagement;
-use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::LoopTask;
 use sprag_sim::closed_loop::assemble::LoopFailure;
 use sprag_sim::closed_loop::run::LoopError;
@@ -162,16 +161,7 @@ impl Subject {
         if interrupt.is_set() {
             return Err(Missing::Interrupted);
         }
-        let task = LoopTask {
-            scene: &self.scene,
-            ground,
-            index: 0,
-            controller,
-            suite,
-            seed: controller.sensors.seed(),
-            closeness: self.scene.file.accuracy.level.map(Closeness::from),
-            interrupt,
-        };
+        let task = LoopTask::of(&self.scene, ground, (controller, suite, controller.sensors.seed()), interrupt);
         task.measured_at(interval).map_err(|failure| match failure {
             LoopFailure::Loop(LoopError::Interrupted) => Missing::Interrupted,
             failure => Missing::Failed(failure.to_string()),

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sprag_report::progress::Progress;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
-use sprag_sim::accuracy::{Accuracy, Closeness, Worst};
+use sprag_sim::accuracy::{Accuracy, Worst};
 use sprag_sim::closed_loop::run::Ending;
 use sprag_sim::closed_loop::{LoopFailure, LoopTask};
 use sprag_sim::interrupt::Interrupt;
@@ -176,16 +176,7 @@ pub fn with_loop<R>(
     let ground = scene.ground_motions()?;
     let controller = scene.file.controller.clone().unwrap_or_default();
     let suite = controller.suite("study")?;
-    let task = LoopTask {
-        scene: &scene,
-        ground: &ground,
-        index: 0,
-        controller: &controller,
-        suite: &suite,
-        seed: variant.seed,
-        closeness: conditions.accuracy.map(Closeness::from),
-        interrupt: conditions.interrupt,
-    };
+    let task = LoopTask::of(&scene, &ground, (&controller, &suite, variant.seed), conditions.interrupt);
     work(&task).map_err(|failure| match failure {
         LoopFailure::Loop(sprag_sim::closed_loop::run::LoopError::Interrupted) => StudyError::Interrupted,
         failure => StudyError::Loop { motion: format!("{motion:?}, {}", variant.name), failure },

@@ -78,16 +78,7 @@ impl Subject {
     pub fn respond(&self, ground: &GroundMotions, interrupt: &Interrupt) -> Result<Response, String> {
         #[cfg(feature = "effects")]
         if let Some(Controlled { controller, suite, seed }) = &self.controlled {
-            let task = sprag_sim::closed_loop::LoopTask {
-                scene: &self.block.scene,
-                ground,
-                index: 0,
-                controller,
-                suite,
-                seed: *seed,
-                closeness: self.block.scene.file.accuracy.level.map(sprag_sim::accuracy::Closeness::from),
-                interrupt,
-            };
+            let task = sprag_sim::closed_loop::LoopTask::of(&self.block.scene, ground, (controller, suite, *seed), interrupt);
             return task.measured().map(|run| Response::of(&run)).map_err(|error| error.to_string());
         }
         let runs = simulate_for_study(&self.block.scene, ground, interrupt).map_err(|error| error.to_string())?;
