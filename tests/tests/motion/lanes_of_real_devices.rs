@@ -22,27 +22,14 @@ use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion, Segment};
 use sprag_sim::simulation::drive::{Course, Overturning, Segmented};
 
+use super::lanes_under_records::motion;
+
 /// A power of two: times of samples are exact, so that the ground never seems to jump between two of them.
 const STEP: f64 = 1.0 / 128.0;
 const SECONDS: f64 = 10.0;
 const FREE_TIME: f64 = 6.0;
 /// A vertical motion is a part of a horizontal one.
 const UP: f64 = 0.4;
-
-/// A motion with a pulse in it and noise on it (in g), strong in the middle.
-fn motion(seed: u64) -> Samples {
-    let mut state = seed;
-    let mut noise = 0.0;
-    let value = |index: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        noise = 0.7 * noise + 0.3 * ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0);
-        let time = index as f64 * STEP;
-        let from_middle = time / SECONDS - 0.5;
-        let envelope = math::exp(-12.0 * from_middle * from_middle);
-        envelope * (0.45 * math::sin(2.0 * time + seed as f64) + 0.25 * math::sin(7.3 * time) + 0.5 * noise)
-    };
-    Samples::new(STEP, (0..(SECONDS / STEP) as usize).map(value).collect())
-}
 
 fn rigid(losses: (f64, f64, f64), actuation: Actuation) -> Drivetrain {
     let (viscous_rate, dry_deceleration, brake_deceleration) = losses;
@@ -141,7 +128,7 @@ struct Seen {
 
 /// Compares lanes and core for all structures on `drivetrain`.
 fn compare(drivetrain: &Drivetrain, geometry: Geometry, vertical: bool) -> Seen {
-    let motions: Vec<Samples> = (1..6).map(motion).collect();
+    let motions: Vec<Samples> = (1..6).map(|seed| Samples::new(STEP, motion(seed, SECONDS, STEP))).collect();
     let mut seen = Seen::default();
     for structure in structures(geometry) {
         let system = drivetrain.resolve::<f64>(&structure, vertical).unwrap();
@@ -220,7 +207,7 @@ fn real_devices_do_so_on_ground_that_moves_vertically_too() {
 
 #[test]
 fn bits_depend_neither_on_registers_nor_on_neighbours() {
-    let motions: Vec<Samples> = (1..4).map(motion).collect();
+    let motions: Vec<Samples> = (1..4).map(|seed| Samples::new(STEP, motion(seed, SECONDS, STEP))).collect();
     let systems: Vec<HybridSystem<f64>> = [Geometry::Full, Geometry::Slender]
         .into_iter()
         .flat_map(structures)
@@ -263,7 +250,7 @@ fn what_is_not_plain_is_left_to_the_core() {
     let [structure, ..] = &structures(Geometry::Full)[..] else { unreachable!() };
     let lossy = drivetrains()[1];
     let guided = Drivetrain { rack: Rack { guided_mass_ratio: 0.1, ..Rack::default() }, ..lossy };
-    let samples = motion(1);
+    let samples = Samples::new(STEP, motion(1, SECONDS, STEP));
     let of = |drivetrain: &Drivetrain, samples: &Samples| {
         let system = drivetrain.resolve(structure, false).unwrap();
         let block =

@@ -17,15 +17,15 @@ use sprag_sim::simulation::drive::{Course, Overturning};
 const STEP: f64 = 0.01;
 const FREE_TIME: f64 = 6.0;
 
-/// A motion of `seconds` with a pulse in it and noise on it (in g), strong in the middle.
-fn motion(seed: u64, seconds: f64) -> Vec<f64> {
+/// A motion of `seconds`, every `step`, with a pulse in it and noise on it (in g), strong in the middle.
+pub(super) fn motion(seed: u64, seconds: f64, step: f64) -> Vec<f64> {
     let mut state = seed;
     let mut noise = 0.0;
-    let length = (seconds / STEP) as usize;
+    let length = (seconds / step) as usize;
     let value = |index: usize| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         noise = 0.7 * noise + 0.3 * ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0);
-        let time = index as f64 * STEP;
+        let time = index as f64 * step;
         let from_middle = time / seconds - 0.5;
         let envelope = math::exp(-12.0 * from_middle * from_middle);
         envelope * (0.45 * math::sin(2.0 * time + seed as f64) + 0.25 * math::sin(7.3 * time) + 0.5 * noise)
@@ -62,7 +62,7 @@ fn structures(geometry: Geometry, device: DeviceKind) -> Vec<Structure> {
 
 #[test]
 fn blocks_under_records_do_what_they_do_alone() {
-    let motions: Vec<Samples> = (1..7).map(|seed| Samples::new(STEP, motion(seed, 12.0))).collect();
+    let motions: Vec<Samples> = (1..7).map(|seed| Samples::new(STEP, motion(seed, 12.0, STEP))).collect();
     for geometry in [Geometry::Full, Geometry::Slender] {
         for device in DeviceKind::ALL {
             let mut seen = [0; 3];
@@ -111,7 +111,7 @@ fn blocks_under_records_do_what_they_do_alone() {
 
 #[test]
 fn bits_depend_neither_on_registers_nor_on_neighbours() {
-    let motions: Vec<Samples> = (1..4).map(|seed| Samples::new(STEP, motion(seed, 8.0))).collect();
+    let motions: Vec<Samples> = (1..4).map(|seed| Samples::new(STEP, motion(seed, 8.0, STEP))).collect();
     for geometry in [Geometry::Full, Geometry::Slender] {
         let mut asked = Vec::new();
         for structure in DeviceKind::ALL.iter().flat_map(|device| structures(geometry, *device)) {
@@ -139,7 +139,7 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
 /// A turned record gives the mirrored motion, to the last bit.
 #[test]
 fn a_record_turned_about_gives_the_mirrored_motion() {
-    let samples = Samples::new(STEP, motion(3, 10.0));
+    let samples = Samples::new(STEP, motion(3, 10.0, STEP));
     for structure in DeviceKind::ALL.iter().flat_map(|device| structures(Geometry::Full, *device)) {
         let [one, other] = [0.7, -0.7].map(|factor| shake(&[shaken(&structure, &samples, factor)], Registers::Widest)[0]);
         let (one, other) = (one.unwrap(), other.unwrap());
