@@ -75,9 +75,10 @@ impl TextTable {
     }
 
     /// Columns that are aligned by spaces; where they are wider than `room`, in several tables one below another, each with the first words.
+    /// What has no room even so goes on below, from a space.
     fn within(&self, room: usize) -> String {
         let widths = widths(&self.rows);
-        let needed = |columns: &[usize]| columns.iter().map(|&column| widths[column] + GAP.len()).sum::<usize>() - GAP.len();
+        let needed = |columns: &[usize]| needed(&widths, columns);
         let mut tables: Vec<Vec<usize>> = Vec::new();
         for column in self.words..widths.len() {
             match tables.last_mut() {
@@ -88,13 +89,43 @@ impl TextTable {
         if tables.is_empty() {
             tables.push((0..widths.len()).collect());
         }
-        let line = |row: &Vec<String>, table: &[usize]| {
-            let cells = self.aligned(row, &widths);
-            let shown: Vec<&str> = table.iter().map(|&column| cells[column].as_str()).collect();
-            shown.join(GAP).trim_end().to_owned() + "\n"
-        };
-        let tables: Vec<String> = tables.iter().map(|table| self.rows.iter().map(|row| line(row, table)).collect()).collect();
+        let tables: Vec<String> = tables.iter().map(|table| self.shown(table, &self.narrowed(&widths, table, room))).collect();
         tables.join("\n")
+    }
+
+    /// The `columns` alone, with these widths of all.
+    fn shown(&self, columns: &[usize], widths: &[usize]) -> String {
+        let row = |row: &Vec<String>| {
+            let broken: Vec<Vec<String>> = row.iter().zip(widths).map(|(cell, width)| broken(cell, *width)).collect();
+            let height = columns.iter().map(|&column| broken[column].len()).max().unwrap_or(0);
+            let line = |number: usize| {
+                let parts: Vec<String> = broken.iter().map(|lines| lines.get(number).cloned().unwrap_or_default()).collect();
+                let cells = self.aligned(&parts, widths);
+                let shown: Vec<&str> = columns.iter().map(|&column| cells[column].as_str()).collect();
+                shown.join(GAP).trim_end().to_owned() + "\n"
+            };
+            (0..height).map(line).collect::<String>()
+        };
+        self.rows.iter().map(row).collect()
+    }
+
+    /// `widths`, so much less for the widest of `columns` that these have `room`, but with room for every word and number.
+    fn narrowed(&self, widths: &[usize], columns: &[usize], room: usize) -> Vec<usize> {
+        let mut widths = widths.to_vec();
+        let least = |column: usize| {
+            let words = |(number, row): (usize, &Vec<String>)| match number == 0 || self.has_words(column) {
+                true => row[column].split(' ').map(measure_text_width).max(),
+                false => Some(measure_text_width(&row[column])),
+            };
+            self.rows.iter().enumerate().filter_map(words).max().unwrap_or(0)
+        };
+        let least: Vec<usize> = (0..widths.len()).map(least).collect();
+        while needed(&widths, columns) > room {
+            let wider = columns.iter().copied().filter(|&column| widths[column] > least[column]);
+            let Some(widest) = wider.max_by_key(|&column| widths[column]) else { break };
+            widths[widest] -= 1;
+        }
+        widths
     }
 
     fn has_words(&self, column: usize) -> bool {
@@ -151,6 +182,23 @@ fn widths(rows: &[Vec<String>]) -> Vec<usize> {
     (0..columns).map(|column| width(column).unwrap_or(0)).collect()
 }
 
+/// Width of `columns` together.
+fn needed(widths: &[usize], columns: &[usize]) -> usize {
+    columns.iter().map(|&column| widths[column] + GAP.len()).sum::<usize>().saturating_sub(GAP.len())
+}
+
+/// `cell` in lines of `width`, which end between words.
+fn broken(cell: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in cell.split(' ') {
+        match lines.last_mut() {
+            Some(line) if measure_text_width(line) + 1 + measure_text_width(word) <= width => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 /// A number with `digits` decimals; a dash for none and for one that is not finite.
 pub fn number(value: impl Into<Option<f64>>, digits: usize) -> String {
     match value.into() {
@@ -179,7 +227,7 @@ fn percent(percent: Option<f64>, digits: usize) -> String {
 }
 
 /// The number with a true minus sign, for pages.
-fn true_minus(number: &str) -> String {
+pub fn true_minus(number: &str) -> String {
     match number {
         "-" => number.to_owned(),
         _ => number.replace('-', "\u{2212}"),
@@ -187,77 +235,4 @@ fn true_minus(number: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn table() -> TextTable {
-        let mut table = TextTable::new(1, ["device", "|θ\u{307}|"]);
-        table.row(vec!["a|b".to_owned(), number(-0.25, 1)]);
-        table.row(vec!["\u{5730}\u{9707}".to_owned(), number(None, 1)]);
-        table
-    }
-
-    #[test]
-    fn rows_are_as_wide_as_a_terminal_shows_them() {
-        for text in [table().markdown(), table().plain()] {
-            let width = measure_text_width(text.lines().next().unwrap());
-            assert!(text.lines().all(|line| measure_text_width(line) == width), "{text}");
-        }
-        assert_eq!((table().markdown().lines().count(), table().plain().lines().count()), (4, 3));
-    }
-
-    #[test]
-    fn a_table_wider_than_the_room_continues_below_with_the_first_words() {
-        let mut table = TextTable::new(1, ["device", "peak", "impacts", "outcome"]);
-        table.row(["pair", "0.25", "12", "safe"].map(str::to_owned).to_vec());
-        let text = table.within(22);
-        assert_eq!(text, "device  peak  impacts\npair    0.25       12\n\ndevice  outcome\npair       safe\n");
-        // However narrow, nothing is lost.
-        let narrow = table.within(1);
-        assert!(["peak", "0.25", "impacts", "12", "outcome", "safe"].iter().all(|word| narrow.contains(word)), "{narrow}");
-        assert_eq!(table.within(30), table.plain());
-    }
-
-    #[test]
-    fn people_see_the_columns_that_have_a_heading() {
-        struct Two;
-        impl Table for Two {
-            fn columns(&self) -> Vec<Column> {
-                vec![
-                    Column::text("device").shown("device", Shown::Digits(0)),
-                    Column::number("hidden"),
-                    Column::number("ratio").or_nothing().shown("change", Shown::Change),
-                    Column::number("b").shown("β", Shown::Digits(2)),
-                ]
-            }
-            fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
-                writer.row(&["pair".into(), 7.0.into(), 0.7.into(), (-0.128).into()])?;
-                writer.row(&["none".into(), 7.0.into(), Value::Nothing, f64::NAN.into()])
-            }
-        }
-        let text = TextTable::of(&Two).unwrap().plain();
-        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split("  ").map(str::trim).collect()).collect();
-        let rows: Vec<Vec<&str>> =
-            rows.into_iter().map(|row| row.into_iter().filter(|cell| !cell.is_empty()).collect()).collect();
-        assert_eq!(rows, [["device", "change", "β"], ["pair", "\u{2212}30 %", "\u{2212}0.13"], ["none", "-", "-"]]);
-    }
-
-    #[test]
-    fn markdown_escapes_bars_and_aligns_numbers_to_the_right() {
-        let text = table().markdown();
-        assert!(text.contains("a\\|b") && text.lines().nth(1).unwrap().ends_with("-:|"), "{text}");
-    }
-
-    #[test]
-    fn what_is_no_number_is_a_dash() {
-        assert_eq!([number(1.25, 1), number(Some(-2.0), 2)], ["1.2", "-2.00"]);
-        assert_eq!([number(None, 1), number(f64::NAN, 1), number(f64::INFINITY, 1)], ["-", "-", "-"]);
-    }
-
-    #[test]
-    fn changes_have_a_sign_and_no_negative_zero() {
-        assert_eq!([-0.3, 0.004, 0.25, -0.004].map(change), ["\u{2212}30 %", "0 %", "+25 %", "0 %"]);
-        assert_eq!([0.1234, -0.5, -0.0001].map(change_in_tenths), ["+12.3 %", "\u{2212}50.0 %", "0 %"]);
-        assert_eq!([change(None), change(f64::INFINITY), change_in_tenths(f64::NAN)], ["-", "-", "-"]);
-    }
-}
+mod tests;
