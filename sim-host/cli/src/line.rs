@@ -94,12 +94,16 @@ pub fn definition() -> clap::Command {
     command.help_template(template).after_help(EXIT_CODES)
 }
 
-/// The subcommand that the words of a command line ask for.
+/// The subcommand that the words of a command line ask for; `help COMMAND` is `COMMAND --help`.
 ///
 /// # Errors
 /// What is wrong with the line, or the help that it asks for.
 pub fn read(words: &[OsString]) -> Result<Line, clap::Error> {
-    Line::from_arg_matches(&definition().try_get_matches_from(words)?)
+    let line = match words {
+        [program, help, command @ ..] if help == "help" => [&[program.clone()], command, &["--help".into()]].concat(),
+        _ => words.to_vec(),
+    };
+    Line::from_arg_matches(&definition().try_get_matches_from(line)?)
 }
 
 /// A negative number is a value, of which its option says whether it is allowed.

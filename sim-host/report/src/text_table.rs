@@ -122,7 +122,8 @@ impl TextTable {
         let least: Vec<usize> = (0..widths.len()).map(least).collect();
         while needed(&widths, columns) > room {
             let wider = columns.iter().copied().filter(|&column| widths[column] > least[column]);
-            let Some(widest) = wider.max_by_key(|&column| widths[column]) else { break };
+            // Headings go on below sooner than words.
+            let Some(widest) = wider.max_by_key(|&column| (!self.has_words(column), widths[column])) else { break };
             widths[widest] -= 1;
         }
         widths

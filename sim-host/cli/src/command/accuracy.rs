@@ -32,7 +32,7 @@ pub struct AccuracyCommandArguments {
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Cells along each side of the grid of one-cycle pulses that wrong outcomes are counted over, by steps from 1e-3/p on; 0 to 64.
-    #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u8).range(i64::from(*CELLS.start())..=i64::from(*CELLS.end())))]
+    #[arg(long, value_name = "N", default_value_t = 12, value_parser = super::whole_number(CELLS))]
     pub cells: u8,
     /// Smallest fixed step, in 1/p; 3e-5 to 0.1.
     #[arg(long, value_name = "STEP", default_value_t = 1e-4, value_parser = smallest_step)]

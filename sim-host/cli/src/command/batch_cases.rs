@@ -38,6 +38,9 @@ impl CaseFile {
         let failed = |error| anyhow!("{}: {error}", path.display());
         let file = File::open(path).map_err(failed)?;
         let data = file.metadata().map_err(failed)?;
+        if data.is_dir() {
+            bail!("{}: is a folder; name a file of cases", path.display());
+        }
         let length = data.is_file().then_some(data.len());
         if is_parquet(path) && length.is_none() {
             bail!("{}: Parquet is read from files only", path.display());

@@ -10,7 +10,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::Scene;
-use sprag_studies::design::basis::Basis;
+use sprag_studies::design::basis::{Basis, TEETH};
 use sprag_studies::design::figure::delay_picture;
 use sprag_studies::design::page::{page, verdict};
 use sprag_studies::design::study::{Findings, PartsList, Problem};
@@ -71,7 +71,7 @@ pub struct BasisArguments {
     #[arg(long, value_name = "FACTOR", default_value_t = Basis::default().service_factor)]
     pub service_factor: f64,
     /// Teeth of the pinion, 12 to 200; below 17 they are undercut unless shifted.
-    #[arg(long, value_name = "Z", default_value_t = Basis::default().teeth)]
+    #[arg(long, value_name = "Z", default_value_t = Basis::default().teeth, value_parser = super::whole_number(TEETH))]
     pub teeth: u32,
     /// Face width of the gear in modules, 4 to 20.
     #[arg(long, value_name = "MODULES", default_value_t = Basis::default().face_width_modules)]

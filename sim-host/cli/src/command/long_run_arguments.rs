@@ -28,7 +28,7 @@ pub struct LongRunArguments {
     pub rows: ResumeArguments,
     /// Put the N shards in the folder together, to the bytes of a run that was not split.
     #[arg(long, value_name = "N", conflicts_with_all = ["shard", "resume", "restart"], help_heading = "Long runs",
-        value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
+        value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub merge: Option<u32>,
     /// Folder of the shards, where that is another than the results'.
     #[arg(skip)]

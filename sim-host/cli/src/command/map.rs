@@ -65,7 +65,7 @@ pub struct MapArguments {
     #[arg(long)]
     pub refine: bool,
     /// Most blocks that --refine follows for one device; what stays coarser is reported.
-    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = evaluations)]
+    #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = super::whole_number(0..=u32::MAX as usize))]
     pub evaluations: usize,
     /// Records.
     #[command(flatten)]
@@ -79,10 +79,6 @@ pub struct MapArguments {
     /// Which of the cells, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
-}
-
-fn evaluations(text: &str) -> Result<usize, String> {
-    super::whole_number(text, 0, u32::MAX.into()).map(|evaluations| evaluations as usize)
 }
 
 #[derive(Serialize)]
@@ -214,11 +210,7 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     let axes = [("x", &arguments.x), ("y", &arguments.y)];
     for (name, axis) in axes {
         if let Some(axis) = axis {
-            let scale = serde_json::to_value(axis.scale).unwrap_or_default();
-            changes.push(format!(
-                "map.{name}={{ key = {:?}, from = {:?}, to = {:?}, cells = {}, scale = {scale} }}",
-                axis.key, axis.from, axis.to, axis.cells
-            ));
+            changes.extend(toml::Value::try_from(axis).map(|axis| format!("map.{name}={axis}")));
         }
     }
     for change in &changes {

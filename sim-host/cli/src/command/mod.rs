@@ -53,12 +53,19 @@ pub mod synthesize;
 pub mod thread_arguments;
 pub mod wrong_line;
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::Path;
+use std::str::FromStr;
 
-/// A whole number from `low` to `high`, as an option has it.
-fn whole_number(text: &str, low: u64, high: u64) -> Result<u64, String> {
-    let number = text.parse().ok().filter(|number| (low..=high).contains(number));
-    number.ok_or_else(|| format!("must be a whole number from {low} to {high}"))
+/// Reads a whole number within `range`, as an option has it.
+fn whole_number<T: FromStr + PartialOrd + Display + Clone>(
+    range: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
+    }
 }
 
 /// What is shown while a time budget is planned.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use sprag_report::long_run::shard::MOST_SHARDS;
 
 use super::context::{Completion, Context, Run};
 use super::divided::Planned;
@@ -18,7 +19,7 @@ pub struct PartArguments {
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Number of the part, from 1.
-    #[arg(value_name = "I")]
+    #[arg(value_name = "I", value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub part: u32,
     /// Threads.
     #[command(flatten)]

@@ -24,7 +24,7 @@ pub struct PlanArguments {
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Number of parts, in the place of --part-seconds.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
+    #[arg(long, value_name = "N", value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub parts: Option<u32>,
     /// Length of a part on one core, s, as a rough rate of rows has it; machines differ.
     #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = seconds)]

@@ -15,12 +15,12 @@ use sprag_sim::simulation::simulate;
 use sprag_studies::statistics::quantile;
 
 /// The most specimens of a run.
-const MOST_SPECIMENS: u64 = 1_000_000_000;
+const MOST_SPECIMENS: usize = 1_000_000_000;
 
 /// A number of specimens, 1 to a milliard.
 pub fn specimen_count(text: &str) -> Result<NonZeroUsize, String> {
-    let count = super::whole_number(text, 1, MOST_SPECIMENS)?;
-    NonZeroUsize::new(count as usize).ok_or_else(|| "must not be 0".to_owned())
+    let count = super::whole_number(1..=MOST_SPECIMENS)(text)?;
+    NonZeroUsize::new(count).ok_or_else(|| "must not be 0".to_owned())
 }
 
 /// How the specimens of a device scatter.

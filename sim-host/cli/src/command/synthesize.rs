@@ -25,7 +25,7 @@ pub struct SynthesizeArguments {
     #[command(flatten)]
     pub replace: OverwriteArguments,
     /// Seed of the noise.
-    #[arg(long, default_value_t = DEFAULT.seed)]
+    #[arg(long, default_value_t = DEFAULT.seed, value_parser = super::whole_number(0..=u64::MAX))]
     pub seed: u64,
     /// Duration in s, 5 to 120.
     #[arg(long, default_value_t = DEFAULT.duration_s, value_name = "S")]

@@ -7,7 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub struct ThreadArguments {
     /// Number of threads; one for each core by default. Results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = |text: &str| super::whole_number(text, 1, 1024).map(|threads| threads as u16))]
+    #[arg(long, value_name = "N", value_parser = super::whole_number(1..=1024_u16))]
     pub threads: Option<u16>,
 }
 

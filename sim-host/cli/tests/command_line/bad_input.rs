@@ -18,6 +18,14 @@ fn bad_scenes_cost_one_line() {
     set("block.restitution=1.5", &["restitution", "from 0 to 1"]);
     set("block.mass_kg=-1", &["mass_kg", "above 0"]);
     set("block.size_m=ten", &["size_m"]);
+    set("block.geometry=1", &["block.geometry is 1, but must be \"full\" or \"slender\""]);
+    let map = |axis: &str, words: &[&str]| refused(&["map", &scene("figure08"), "--out", to, "--x", axis], &out, words);
+    map("block.size_m=nan:1:5", &["map.x.from is NaN, but must be"]);
+    map("block.geometry=1:3:5", &["block.geometry is 1, but must be \"full\" or \"slender\""]);
+    refused(&["simulate", &scene("cloud"), "--out", to], &out, &["is a key of studies", "`sprag cloud`"]);
+    refused(&["cloud", &figure, "--records", "x.AT2", "--out", to], &out, &["block is a key of scenes", "`sprag simulate`"]);
+    let similar = |with: &str, words: &[&str]| refused(&["similar", &figure, "--out", to, "--with", with], &out, words);
+    similar("block.size_m", &["--with block.size_m: must be KEY=VALUE"]);
     set("output.interval_s=1e-6", &["5 million"]);
     refused(&["simulate", "nowhere.toml", "--out", to], &out, &["nowhere.toml"]);
     refused(&["simulate", SCENES, "--out", to], &out, &["not a file"]);
@@ -61,6 +69,7 @@ fn bad_cases_cost_one_line_that_names_the_place() {
     let cases = folder.path().join("cases.csv");
     let header = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
     let good = "0,full,15,none,0,0.85,sine,2,2,60\n";
+    refused(&["batch", SCENES, "--out", results.to_str().unwrap()], &out, &[SCENES, "is a folder; name a file of cases"]);
     let try_text = |text: &str, words: &[&str]| {
         fs::write(&cases, text).unwrap();
         refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, words);
@@ -140,7 +149,7 @@ fn bad_input_of_design_costs_one_line() {
     let heavy = |more: &[&str], words: &[&str]| {
         line(&near_fault, &[&["--set", "block.mass_kg=10000"], more].concat(), words);
     };
-    heavy(&["--teeth", "11"], &["--teeth is 11", "from 12 to 200"]);
+    heavy(&["--teeth", "11"], &["'11' for '--teeth", "from 12 to 200"]);
     heavy(&["--margin", "NaN"], &["--margin is NaN", "from 1 to 10"]);
     heavy(&["--service-factor", "0.9"], &["--service-factor is 0.9", "from 1 to 10"]);
     heavy(&["--face-width", "30"], &["--face-width is 30", "from 4 to 20"]);

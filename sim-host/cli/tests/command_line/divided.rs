@@ -113,7 +113,8 @@ fn a_plan_is_of_one_run() {
     let slurm = sprag(here, &["plan", "parts", "--parts", "3", "--slurm", "--", "map", "scene.toml"]);
     let script = printed(&slurm);
     assert!(script.contains("#SBATCH --array=1-3") && script.contains("sprag part 'parts'"), "{script}");
-    refused(&sprag(here, &["part", "parts", "0"]), &["there is no part 0"]);
+    refused(&sprag(here, &["part", "parts", "0"]), &["from 1 to 1000000"]);
+    refused(&sprag(here, &["part", "parts", "4000"]), &["there is no part 4000"]);
     refused(&sprag(here, &["part", "parts", "4"]), &["there is no part 4"]);
     refused(&sprag(here, &["part", "nowhere", "1"]), &["plan.json"]);
     refused(&sprag(&here.join("parts"), &["part", ".", "1"]), &["the plan was made in"]);

@@ -36,6 +36,12 @@ fn a_wrong_command_line_costs_one_line_and_points_to_the_help() {
         (&["loop", &figure, "--monte-carlo", "-5"], &["'-5'", "from 1 to 1000000000"]),
         (&["map", &figure, "--refine", "--evaluations", "-1"], &["'-1'", "from 0 to"]),
         (&["simulate", &figure, "--time-budget", "-1"], &["'-1'", "0.001"]),
+        (&["design", &figure, "--teeth", "17.5"], &["'17.5'", "--teeth", "from 12 to 200"]),
+        (&["accuracy", &figure, "--cells", "x"], &["'x'", "--cells", "from 0 to 64"]),
+        (&["cloud", "study.toml", "--merge", "0"], &["'0'", "--merge", "from 1 to 1000000"]),
+        (&["part", "parts", "x"], &["'x'", "from 1 to 1000000"]),
+        (&["synthesize", "--out", "x.csv", "--seed", "-1"], &["'-1'", "--seed", "from 0 to"]),
+        (&["help", "mapp"], &["'mapp'", "'map'"]),
     ] {
         let line = one_line(&sprag(arguments), words);
         assert!(!line.contains("as a value") && !line.contains("Usage") && !line.contains("error:"), "{arguments:?}: {line}");
@@ -144,6 +150,14 @@ fn help_has_an_example_and_is_wrapped_once() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn help_with_a_command_is_the_help_of_that_command() {
+    for command in [&[] as &[&str], &["map"], &["board", "info"]] {
+        let [asked, its_own] = [[&["help"], command].concat(), [command, &["--help"]].concat()].map(|line| sprag(&line));
+        assert!(asked.status.success() && !asked.stdout.is_empty() && asked.stdout == its_own.stdout, "{command:?}");
     }
 }
 

@@ -78,6 +78,7 @@ fn a_fallen_block_is_no_fault_of_its_sensors() {
     assert_eq!(run["controller_state"], "rocking");
     let table = String::from_utf8(output.stdout).unwrap();
     assert!(!table.contains("fault ") && table.contains("rocking when the fall began"), "{table}");
+    assert!(table.contains("late by \u{2212}"), "{table}");
     let history = fs::read_to_string(folder.path().join("history.csv")).unwrap();
     assert!(history.trim_end().ends_with(",fault,45"), "otherwise there is nothing to be left out");
 }

@@ -131,7 +131,9 @@ impl fmt::Display for LoopSummary {
             self.impacts
         )?;
         writeln!(out, "  ideal pair   {:26} max |θ|/α {}", self.ideal_outcome.name(), number(self.ideal_peak_rotation))?;
-        let milliseconds = |delay: Option<f64>| delay.map_or_else(|| "-".to_owned(), |delay| format!("{:.2} ms", 1e3 * delay));
+        // With a true minus sign, as in every table.
+        let delayed = |delay: f64| format!("{:.2} ms", 1e3 * delay).replace('-', "\u{2212}");
+        let milliseconds = |delay: Option<f64>| delay.map_or_else(|| "-".to_owned(), delayed);
         let DecisionReport { wrong_share, delay_median_s, delay_95_s, switches, ideal_switches, .. } = &self.decisions;
         writeln!(
             out,

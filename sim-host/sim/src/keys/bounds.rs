@@ -1,6 +1,7 @@
-//! The range of a number.
+//! The range of a number, and the length of a list.
 
 use serde_json::Value as Schema;
+use sprag_shared::structure::error::Number;
 use toml::Value;
 
 use super::list::range;
@@ -54,13 +55,13 @@ impl Bounds {
     }
 }
 
-/// A number outside its range.
+/// A value outside its range.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outside {
     /// Its key: names, and numbers of elements.
     pub path: Vec<String>,
-    /// The number.
-    pub value: f64,
+    /// The number, or how long a list is.
+    pub value: String,
     /// What it may be.
     pub range: String,
 }
@@ -73,7 +74,8 @@ impl Outside {
     }
 }
 
-/// The first number of `table`, in the order of its `schema`, that is outside the range which `schema` gives it.
+/// The first value of `table`, in the order of its `schema`, that is outside the range which `schema` gives it: a number, also where only
+/// words may be, or a list that is too short or too long.
 pub fn outside(table: &toml::Table, schema: &Schema) -> Option<Outside> {
     let mut outside = in_table(table, schema)?;
     outside.path.reverse();
@@ -91,9 +93,11 @@ fn in_value(value: &Value, schema: &Schema, key: &str) -> Option<Outside> {
     match value {
         Value::Table(table) => in_table(table, schema),
         Value::Array(values) => {
-            let items = choices(schema).find_map(|choice| choice.get("items"))?;
-            let mut values = values.iter().enumerate();
-            values.find_map(|(index, value)| in_value(value, items, key).map(|outside| outside.under(&index.to_string())))
+            let (list, items) = choices(schema).find_map(|choice| Some((choice, choice.get("items")?)))?;
+            let mut elements = values.iter().enumerate();
+            length_outside(values.len(), list).or_else(|| {
+                elements.find_map(|(index, value)| in_value(value, items, key).map(|outside| outside.under(&index.to_string())))
+            })
         }
         Value::Integer(value) => number_outside(*value as f64, schema, key),
         Value::Float(value) => number_outside(*value, schema, key),
@@ -103,8 +107,20 @@ fn in_value(value: &Value, schema: &Schema, key: &str) -> Option<Outside> {
 
 fn number_outside(value: f64, schema: &Schema, key: &str) -> Option<Outside> {
     let is_number = |choice: &&Schema| choice.get("type").is_some_and(|name| name == "number" || name == "integer");
-    let bounds = Bounds::of(choices(schema).find(is_number)?);
-    (!bounds.allow(value)).then(|| Outside { path: Vec::new(), value, range: range(schema, key) })
+    let is_word = |choice: &Schema| choice.get("const").or(choice.get("enum")).is_some();
+    let allowed = match choices(schema).find(is_number) {
+        Some(number) => Bounds::of(number).allow(value),
+        None => !choices(schema).any(is_word),
+    };
+    (!allowed).then(|| Outside { path: Vec::new(), value: Number(value).to_string(), range: range(schema, key) })
+}
+
+fn length_outside(length: usize, list: &Schema) -> Option<Outside> {
+    let [least, most] = ["minItems", "maxItems"].map(|name| list.get(name).and_then(Schema::as_u64));
+    let (least, length) = (least.unwrap_or(0), length as u64);
+    let range = most.map_or_else(|| format!("a list of {least} or more"), |most| format!("a list of {least} to {most}"));
+    let allowed = least <= length && most.is_none_or(|most| length <= most);
+    (!allowed).then(|| Outside { path: Vec::new(), value: format!("a list of {length}"), range })
 }
 
 /// `schema`, or what it lets one choose from.

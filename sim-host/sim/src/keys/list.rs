@@ -118,7 +118,8 @@ fn range_of_kind(schema: &Schema, name: &str) -> String {
     let bounds = Bounds::of(schema);
     let unbounded = bounds == Bounds { low: None, high: None };
     match schema["type"].as_str() {
-        Some("integer") if unbounded || bounds.low == Some((0.0, true)) && bounds.high.is_none() => "a whole number".to_owned(),
+        Some("integer") if unbounded => "a whole number".to_owned(),
+        Some("integer") if bounds == Bounds { low: Some((0.0, true)), high: None } => "a whole number from 0".to_owned(),
         Some("number") if unbounded => super::unit::unit(name).map_or("a number".to_owned(), |unit| format!("a number, {unit}")),
         Some("number" | "integer") => bounds.in_words(name),
         Some("boolean") => "true or false".to_owned(),

@@ -19,4 +19,9 @@ pub use schema::schema_of;
 pub trait Described: DeserializeOwned {
     /// Its JSON schema (draft 7), without references.
     fn schema() -> &'static Value;
+
+    /// Whose key `key` is where it is none of this kind of file, and who takes that.
+    fn stranger(_key: &str) -> Option<&'static str> {
+        None
+    }
 }

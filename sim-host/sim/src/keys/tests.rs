@@ -22,7 +22,7 @@ fn ranges_are_in_words_with_the_unit_of_the_key() {
         ("block.restitution", "from 0 to 1, \"geometric\" or \"momentum-balance\""),
         ("device.N.kind", "\"none\", \"inerter\" or \"clutched-pair\""),
         ("device.N.clutch.damping_n_s_m", "0 N s/m or more"),
-        ("device.N.actuation.miss_seed", "a whole number"),
+        ("device.N.actuation.miss_seed", "a whole number from 0"),
         ("controller.engaged_at_rest", "true or false"),
         ("controller.sensors.gyroscope", "\"ideal\", \"icm-42688-p\", \"bmi088\", \"adis16470\", \"mpu-6050\" or a table"),
         ("map.x.cells", "from 2 to 100000"),

@@ -387,7 +387,7 @@ fn a_value_outside_its_range_is_named_by_its_key() {
         ("device.1.rack.dry_friction_n=1e6", "device.1.rack.dry_friction_n as rack dry_ratio", "from 0 to 10"),
         ("device.2.actuation.engagement_delay_s=11", "device.2.actuation.engagement_delay_s is 11", "from 0 to 10 s"),
         ("device.2.actuation.miss_probability=2", "device.2.actuation.miss_probability is 2", "from 0 to 1"),
-        ("device.2.actuation.miss_seed=-1", "miss_seed", "u64"),
+        ("device.2.actuation.miss_seed=-1", "miss_seed is -1", "a whole number from 0"),
         ("device.1.support_amplification=11", "device.1.support_amplification is 11", "from -10 to 10"),
         ("device.1.weight.rack_ratio=11", "device.1.weight.rack_ratio is 11", "from 0 to 10"),
         ("device.1.weight.rack_kg=1e5", "device.1.weight.rack_kg over block.mass_kg is 100", "from 0 to 10"),

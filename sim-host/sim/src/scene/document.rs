@@ -1,7 +1,6 @@
 //! TOML documents as the types of a scene or a study.
 
 use serde_path_to_error::{Segment, Track};
-use sprag_shared::structure::error::Number;
 use toml::de::{DeArray, DeTable};
 
 use super::error::SceneError;
@@ -53,22 +52,26 @@ fn read<T: Described>(table: toml::Table, origin: &str, line: impl Fn(&[String])
     let mut document = <dyn erased_serde::Deserializer<'_>>::erase(tracked);
     let read = erased_serde::deserialize(&mut document);
     drop(document);
-    let document = read.map_err(|error| {
-        let path = track.path();
+    let path = track.path();
+    let keys: Vec<String> = path.iter().map_while(key_of).collect();
+    // A number of another kind may be outside a range too, which says more.
+    let is_told = |outside: &Outside| read.is_ok() || outside.path == keys;
+    if let Some(Outside { path, value, range }) = outside.filter(is_told) {
+        return Err(SceneError::Range { origin: origin.to_owned(), line: line(&path), key: path.join("."), value, range });
+    }
+    read.map_err(|error| {
         // Where toml knows no line it says below the message in which key.
         let message = error.to_string();
         let message = message.split_once("\nin `").map_or(message.as_str(), |(message, _)| message);
-        let keys: Vec<String> = path.iter().map_while(key_of).collect();
-        SceneError::syntax(origin, line(&keys), &path.to_string(), message)
-    })?;
-    match outside {
-        None => Ok(document),
-        Some(Outside { path, value, range }) => {
-            let line = line(&path);
-            let (origin, key, value) = (origin.to_owned(), path.join("."), Number(value).to_string());
-            Err(SceneError::Range { origin, line, key, value, range })
+        let stranger = keys.first().filter(|_| keys.len() == 1 && message.starts_with("unknown field `"));
+        match stranger.and_then(|key| Some((key.clone(), T::stranger(key)?))) {
+            Some((key, whose)) => {
+                let message = format!("{key} is {whose}");
+                SceneError::Syntax { origin: origin.to_owned(), line: line(&keys), key: Some(key), message }
+            }
+            None => SceneError::syntax(origin, line(&keys), &path.to_string(), message),
         }
-    }
+    })
 }
 
 /// The name of a key or the number of an element.

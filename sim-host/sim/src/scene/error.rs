@@ -169,6 +169,9 @@ pub fn nearest<'a>(given: &str, known: impl Iterator<Item = &'a str>) -> Option<
 
 /// A complaint about the kind of a value, `invalid type: integer `5`, expected f64`, in the words of a person; `None` for any other.
 fn in_words(message: &str) -> Option<String> {
+    if message.starts_with("invalid length ") && message.contains(", expected struct ") {
+        return Some("is a list, but must be a table".to_owned());
+    }
     let (found, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
     let found = match found {
         "map" => "a table".to_owned(),

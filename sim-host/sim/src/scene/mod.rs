@@ -116,9 +116,6 @@ impl Scene {
         if file.device.is_empty() {
             return Err(key("device").missing("at least one [[device]] table"));
         }
-        if file.device.len() > MOST_DEVICES {
-            return Err(key("device").range(file.device.len() as f64, "at most 16 tables"));
-        }
         let mut devices = Vec::new();
         for (index, table) in file.device.iter().enumerate() {
             let key = |name: &str| key(&format!("device.{index}.{name}"));

@@ -67,6 +67,12 @@ impl Described for SceneFile {
         static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(schema_of::<SceneFile>);
         &SCHEMA
     }
+
+    fn stranger(key: &str) -> Option<&'static str> {
+        let of_study = "scene records record structure scale stripes measures demand fragility bootstrap optimise";
+        let whose = "a key of studies, which `sprag cloud` and `sprag optimise` take, and none of scenes";
+        of_study.split(' ').any(|name| name == key).then_some(whose)
+    }
 }
 
 /// `[block]`.

@@ -74,7 +74,7 @@ fn an_error_names_the_key_the_value_and_what_it_may_be() {
         ("block.restitution_scatter=0.6", "block.restitution_scatter is 0.6", "from 0 to 0.5"),
         ("block.restitution_scatter=-0.01", "block.restitution_scatter is -0.01", "from 0 to 0.5"),
         ("block.restitution_scatter=nan", "block.restitution_scatter is NaN", "from 0 to 0.5"),
-        ("block.restitution_seed=-1", "block.restitution_seed", "expected u64"),
+        ("block.restitution_seed=-1", "block.restitution_seed is -1", "a whole number from 0"),
         ("block.restitution_seed=1.5", "block.restitution_seed", "a whole number"),
         ("block.restitution=bouncy", "block.restitution is \"bouncy\"", "geometric"),
         ("block.mass_kg=-3", "block.mass_kg is -3", "above 0 kg"),
@@ -177,7 +177,7 @@ fn contradictions_are_refused_with_the_reason() {
         (&["accuracy.events=step-end"], "step-end"),
         (&["run.free_time_s=1", "run.free_time_ratio=1"], "only one of"),
         (&["ground=[]"], "free rocking"),
-        (&["device=[]"], "at least one"),
+        (&["device=[]"], "a list of 1 to 16"),
     ] {
         let message = refused(items);
         assert!(message.contains(reason), "{items:?}: {message}");

@@ -55,9 +55,6 @@ pub(super) fn structures(
         let name = if base.file.title.is_empty() { "scene".to_owned() } else { base.file.title.clone() };
         return Ok(vec![structure(name, base)?]);
     }
-    if file.structure.len() > MOST_STRUCTURES {
-        return Err(key("structure").range(file.structure.len() as f64, "at most 64 tables").into());
-    }
     for given in overrides.iter().filter_map(|item| Some(item.split_once('=')?.0.trim())) {
         let of_structures = || file.structure.iter().map(|table| table.set.get(given));
         if of_structures().any(|value| Some(value) != of_structures().next()) {

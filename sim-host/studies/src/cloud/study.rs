@@ -117,9 +117,6 @@ impl Study {
         }
         check_names(&file.demand.structures, &structures, key("demand.structures"))?;
         check_names(&file.fragility.structures, &structures, key("fragility.structures"))?;
-        if file.measures.is_empty() {
-            return Err(key("measures").missing("one measure to rank or more").into());
-        }
         key("measures").once(&file.measures)?;
         let bootstrap = bootstrap(&file, &key)?;
         let reading = reading(&file.record, &structures[0].scene, &key)?;
@@ -160,23 +157,19 @@ fn names(scene: &Scene) -> Vec<String> {
 }
 
 fn scaling(file: &StudyFile, key: &dyn Fn(&str) -> KeyPath) -> Result<Scaling, SceneError> {
-    let check = |name: &str, values: &[f64]| match values.len() {
-        1..=MOST_SCALES => key(name).once(values),
-        count => Err(key(name).range(count as f64, "a list of 1 to 1000 numbers")),
-    };
     match (&file.scale, &file.stripes) {
         (Some(_), Some(_)) => Err(key("scale").conflict("give only one of scale and [stripes]")),
         (None, None) => Ok(Scaling::Factors(vec![1.0])),
         (Some(factors), None) => {
-            check("scale", factors)?;
+            key("scale").once(factors)?;
             Ok(Scaling::Factors(factors.clone()))
         }
         (None, Some(stripes)) => {
-            check("stripes.levels", &stripes.levels)?;
             if !stripes.measure.scales() {
                 let reason = format!("{} does not change when a record is scaled", stripes.measure.name());
                 return Err(key("stripes.measure").conflict(&reason));
             }
+            key("stripes.levels").once(&stripes.levels)?;
             Ok(Scaling::Levels(stripes.measure, stripes.levels.clone()))
         }
     }

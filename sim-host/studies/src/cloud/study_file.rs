@@ -10,6 +10,7 @@ use serde_with::skip_serializing_none;
 
 use sprag_sim::keys::{Described, schema_of};
 use sprag_sim::record::TIME_STEP_RANGE_S;
+use sprag_sim::scene::schema::SceneFile;
 
 use super::measure::{LARGEST_FACTOR, Measure};
 use crate::optimise::table::OptimiseTable;
@@ -52,6 +53,7 @@ pub struct StudyFile {
     pub record: RecordTable,
     /// Changes of the scene, each a structure of its own; the scene as it is without any.
     #[serde(default)]
+    #[schemars(length(max = super::structures::MOST_STRUCTURES))]
     pub structure: Vec<StructureTable>,
     /// Factors on every record; 1 without `scale` and `stripes`.
     #[schemars(inner(range(max = LARGEST_FACTOR)), transform = each_above_zero, length(min = 1, max = super::study::MOST_SCALES), example = EXAMPLE_SCALES)]
@@ -86,6 +88,12 @@ impl Described for StudyFile {
     fn schema() -> &'static serde_json::Value {
         static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(schema_of::<StudyFile>);
         &SCHEMA
+    }
+
+    fn stranger(key: &str) -> Option<&'static str> {
+        let whose =
+            "a key of scenes, which `sprag simulate` and `sprag map` take among others; a study names its scene as `scene`";
+        SceneFile::schema()["properties"].get(key).map(|_| whose)
     }
 }
 

@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_sim::keys::Described;
+use sprag_sim::scene::Scene;
+
 use super::measure::Measure;
 use super::study::{Scaling, Study};
+use super::study_file::StudyFile;
 
 const RECORDS: &str = "records = ['a.csv']\n";
 
@@ -77,14 +81,18 @@ fn the_command_line_wins_over_structures_unless_these_differ() {
 fn what_is_wrong_is_named_with_its_key_and_range() {
     for (keys, expected) in [
         ("scale = [0.0]", "scale.0 is 0, but must be above 0, to 1000"),
-        ("scale = []", "scale is 0, but must be a list of 1 to 1000 numbers"),
+        ("scale = []", "scale is a list of 0, but must be a list of 1 to 1000"),
         ("scale = [1]\n[stripes]\nmeasure = 'pga'\nlevels = [1]", "scale: give only one of scale and [stripes]"),
         ("[stripes]\nmeasure = 'pga'\nlevels = [1, -1]", "stripes.levels.1 is -1, but must be above 0, to 1e6"),
         ("[stripes]\nmeasure = 'frequency'\nlevels = [1]", "stripes.measure: frequency does not change when a record is scaled"),
-        ("measures = []", "measures is missing: one measure to rank or more"),
         ("measures = ['pgv', 'pga', 'pgv']", "measures.2: this value is there already"),
         ("scale = [1, 2.0, 1.0]", "scale.2: this value is there already"),
         ("[stripes]\nmeasure = 'pga'\nlevels = [0.5, 0.5]", "stripes.levels.1: this value is there already"),
+        ("[stripes]\nmeasure = 'pga'\nlevels = []", "stripes.levels is a list of 0, but must be a list of 1 to 1000"),
+        ("measures = []", "measures is a list of 0, but must be a list of 1 or more"),
+        ("[optimise]\nmass_ratio = []", "optimise.mass_ratio is a list, but must be a table"),
+        ("[bootstrap]\nseed = -1", "bootstrap.seed is -1, but must be a whole number from 0"),
+        ("block = { size_m = 2 }", "block is a key of scenes, which `sprag simulate` and `sprag map` take"),
         ("measures = ['sa']", "measures.0: unknown variant `sa`, expected one of"),
         ("speed = 1", "unknown field `speed`"),
         ("[bootstrap]\nlevel = 1.0", "bootstrap.level is 1, but must be above 0 and below 1"),
@@ -101,6 +109,14 @@ fn what_is_wrong_is_named_with_its_key_and_range() {
         let error = parse(&format!("{RECORDS}{keys}")).unwrap_err();
         assert!(error.starts_with("study.toml") && error.contains(expected), "{keys}: {error}");
         assert!(!error.contains('\n'), "{error}");
+    }
+}
+
+#[test]
+fn a_scene_knows_every_key_of_a_study() {
+    for key in StudyFile::schema()["properties"].as_object().unwrap().keys().filter(|key| *key != "title") {
+        let error = Scene::parse(&format!("{key} = 1"), "study.toml").unwrap_err().to_string();
+        assert!(error.contains(&format!("{key} is a key of studies, which `sprag cloud` and `sprag optimise` take")), "{error}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! The design basis: what is assumed of material, service and margins.
 
+use std::ops::RangeInclusive;
+
 use serde::Serialize;
 use sprag_sim::scene::Scene;
 
@@ -13,6 +15,9 @@ pub const DISC_THICKNESS_RATIO: f64 = 0.2;
 
 /// Teeth below which a pinion with a pressure angle of 20 degrees is undercut unless its teeth are shifted.
 pub const UNDERCUT_TEETH: u32 = 17;
+
+/// Teeth that a pinion may have.
+pub const TEETH: RangeInclusive<u32> = 12..=200;
 
 /// What is assumed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -63,7 +68,7 @@ impl Basis {
         };
         within("margin", self.margin, (1.0..=10.0).contains(&self.margin), "from 1 to 10")?;
         within("service-factor", self.service_factor, (1.0..=10.0).contains(&self.service_factor), "from 1 to 10")?;
-        within("teeth", self.teeth.into(), (12..=200).contains(&self.teeth), "from 12 to 200")?;
+        within("teeth", self.teeth.into(), TEETH.contains(&self.teeth), "from 12 to 200")?;
         let width = self.face_width_modules;
         within("face-width", width, (4.0..=20.0).contains(&width), "from 4 to 20 modules")?;
         let stress = self.allowable_stress_mpa;

@@ -184,11 +184,6 @@ impl OptimiseTable {
         if let Some(index) = (1..self.delays_s.len()).find(|&index| self.delays_s[index] <= self.delays_s[index - 1]) {
             return Err(key(&format!("delays_s.{index}")).range(self.delays_s[index], "above the delay before it"));
         }
-        for (name, count) in [("laws", self.laws.len()), ("mounts", self.mounts.len())] {
-            if count > MOST_CHOICES {
-                return Err(key(name).range(count as f64, "a list of at most 32"));
-            }
-        }
         Ok(())
     }
 }

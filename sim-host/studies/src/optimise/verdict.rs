@@ -1,5 +1,6 @@
 //! What the comparison with a rival comes to, in words.
 
+use sprag_report::text_table::true_minus;
 use sprag_shared::math::exp;
 
 use super::findings::Row;
@@ -54,18 +55,18 @@ fn amount(rival: &Rival) -> String {
 /// A share of the motions in percent, with a decimal.
 pub(super) fn points(share: f64) -> String {
     // −0.0 would read as less than nothing.
-    format!("{:.1} %", 100.0 * share + 0.0).replace("-0.0 %", "0.0 %")
+    true_minus(&format!("{:.1} %", 100.0 * share + 0.0).replace("-0.0 %", "0.0 %"))
 }
 
 /// Rotations of the chosen device beside those of a rival, whose logarithms differ by `log`.
 fn change(log: f64, band: Band) -> String {
     let relative = |log: f64| 100.0 * (1.0 - exp(-log));
     let [size, low, high] = [log, band.low, band.high].map(relative);
-    if log > 0.0 {
+    true_minus(&if log > 0.0 {
         format!("{size:.0} % smaller [{low:.0} %, {high:.0} %]")
     } else {
         format!("{:.0} % larger [{:.0} %, {:.0} %]", -size, -high, -low)
-    }
+    })
 }
 
 /// "0.62", the other device's rotations over the chosen one's turned round: what the chosen makes of them.
@@ -109,7 +110,7 @@ mod tests {
         );
         assert_eq!(
             of(rival(0.01, 0.02, false, Some(0.5))),
-            "not distinguishable from no device by overturning: 1.0 % fewer of the motions overturn it [-1.0 %, 3.0 %]; where both rock \
+            "not distinguishable from no device by overturning: 1.0 % fewer of the motions overturn it [\u{2212}1.0 %, 3.0 %]; where both rock \
              and stand, its peak rotations are 39 % smaller [33 %, 45 %]"
         );
         let same = rival(0.0, 0.0, false, Some(0.01)).verdict(Level::COMMON);
