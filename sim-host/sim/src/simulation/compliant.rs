@@ -43,10 +43,7 @@ fn follow<S: Real>(task: &Task<'_>) -> Result<DeviceRun, Failure> {
             Ok(state.motion.phase == Phase::Overturned)
         },
     );
-    ended.map_err(Failure::Stopped)?;
-    if task.interrupt.is_set() {
-        return Err(Failure::Interrupted);
-    }
+    task.ended(ended)?;
     if state.motion.phase != Phase::Overturned {
         watchers.recorder.finish(task.end(), false);
     }

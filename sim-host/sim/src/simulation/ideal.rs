@@ -39,9 +39,7 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
         let force_scale = coupling * task.force_scale(&loaded);
         let steps = Steps { method: accuracy.method, step, interval: task.interval, force_scale };
         let trace = step_end::follow(&course, &system, &steps, (state.rotation, state.velocity), &mut continues);
-        if task.interrupt.is_set() {
-            return Err(Failure::Interrupted);
-        }
+        task.ended(Ok(()))?;
         let peaks = Peaks { rocked: trace.peaks.rocked || task.released().is_some(), ..trace.peaks };
         let state = trace.state;
         return Ok(DeviceRun::of(task, &state, &peaks, trace.into()));
@@ -51,10 +49,7 @@ fn with_method<S: sprag_loops::Precision>(task: &Task<'_>, method: Method<S>) ->
     let still = SumSegment::QUIET;
     let mut watched =
         Watched { engaged: system.engaged, clutch: system.clutch, coupling, segment: still, observer: &mut watchers };
-    course.follow(&system, &*S::ideal(method), &mut state, &mut watched, continues).map_err(Failure::Stopped)?;
-    if task.interrupt.is_set() {
-        return Err(Failure::Interrupted);
-    }
+    task.ended(course.follow(&system, &*S::ideal(method), &mut state, &mut watched, continues))?;
     if state.phase != Phase::Overturned {
         watchers.recorder.finish(task.end(), state.phase == Phase::Rest);
     }

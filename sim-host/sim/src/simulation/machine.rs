@@ -33,10 +33,7 @@ fn follow<S: Real>(task: &Task<'_>, method: &dyn HybridLoop<S>) -> Result<Device
         None => machine.at_rest(),
     };
     let mut watchers = task.watchers::<S>(&loaded)?;
-    course.follow_machine(&machine, method, &mut state, &mut watchers, || !task.interrupt.is_set()).map_err(Failure::Stopped)?;
-    if task.interrupt.is_set() {
-        return Err(Failure::Interrupted);
-    }
+    task.ended(course.follow_machine(&machine, method, &mut state, &mut watchers, || !task.interrupt.is_set()))?;
     let phase = state.motion.phase;
     if phase != Phase::Overturned {
         watchers.recorder.finish(task.end(), phase == Phase::Rest);

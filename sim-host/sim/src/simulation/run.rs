@@ -214,6 +214,12 @@ impl<'a> Task<'a> {
         Ok(DeviceRun { error: Some(ErrorReport::of(&found)), ..found.result })
     }
 
+    /// What the end of a course is for the run: one that was interrupted has none.
+    pub fn ended(&self, end: Result<(), Stopped>) -> Result<(), Failure> {
+        end.map_err(Failure::Stopped)?;
+        if self.interrupt.is_set() { Err(Failure::Interrupted) } else { Ok(()) }
+    }
+
     /// The device.
     pub fn device(&self) -> &'a SceneDevice {
         &self.scene.devices[self.index]

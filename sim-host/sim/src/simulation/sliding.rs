@@ -47,10 +47,7 @@ fn follow<S: Real>(task: &Task<'_>) -> Result<DeviceRun, Failure> {
             Ok(state.has_ended())
         },
     );
-    ended.map_err(Failure::Stopped)?;
-    if task.interrupt.is_set() {
-        return Err(Failure::Interrupted);
-    }
+    task.ended(ended)?;
     if !state.has_ended() {
         watchers.recorder.finish(task.end(), state.stands());
     } else if lifted_off.is_some() {
