@@ -100,7 +100,7 @@ pub fn definition() -> clap::Command {
 /// What is wrong with the line, or the help that it asks for.
 pub fn read(words: &[OsString]) -> Result<Line, clap::Error> {
     let line = match words {
-        [program, help, command @ ..] if help == "help" => [&[program.clone()], command, &["--help".into()]].concat(),
+        [program, help, command @ ..] if help == "help" => [std::slice::from_ref(program), command, &["--help".into()]].concat(),
         _ => words.to_vec(),
     };
     Line::from_arg_matches(&definition().try_get_matches_from(line)?)
