@@ -242,6 +242,7 @@ mod tests {
             Ok(_) => false,
             // No such key, or one of another kind: other errors are about the number.
             Err(SceneError::Conflict { key, .. }) => key.starts_with("--set "),
+            Err(SceneError::Range { range, .. }) => range.starts_with('"'),
             Err(error) => matches!(error, SceneError::Syntax { .. }),
         };
         !refused("1.5") || !refused("1")
