@@ -11,6 +11,7 @@
 pub mod band;
 pub mod columns;
 pub mod heading;
+mod lines;
 #[cfg(feature = "host")]
 pub mod long_run;
 #[cfg(feature = "host")]

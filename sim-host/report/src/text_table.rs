@@ -1,8 +1,10 @@
 //! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
 
 use console::{Term, measure_text_width};
+use sprag_sim::effect::number::true_minus;
 
 use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
+use crate::lines::in_lines;
 
 /// A table whose first columns are words, to the left, and the others numbers, to the right.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -190,14 +192,7 @@ fn needed(widths: &[usize], columns: &[usize]) -> usize {
 
 /// `cell` in lines of `width`, which end between words.
 fn broken(cell: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in cell.split(' ') {
-        match lines.last_mut() {
-            Some(line) if measure_text_width(line) + 1 + measure_text_width(word) <= width => *line += &format!(" {word}"),
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
+    in_lines(cell.split(' '), " ", |line, word| measure_text_width(line) + 1 + measure_text_width(word) <= width)
 }
 
 /// A number with `digits` decimals; a dash for none and for one that is not finite.
@@ -224,14 +219,6 @@ fn percent(percent: Option<f64>, digits: usize) -> String {
         Some(0.0) => "0 %".to_owned(),
         Some(percent) if percent.is_finite() => true_minus(&format!("{percent:+.digits$} %")),
         _ => "-".to_owned(),
-    }
-}
-
-/// The number with a true minus sign, for pages.
-pub fn true_minus(number: &str) -> String {
-    match number {
-        "-" => number.to_owned(),
-        _ => number.replace('-', "\u{2212}"),
     }
 }
 

@@ -30,7 +30,7 @@ use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
-use super::specimens::{scatter, specimen_count};
+use super::specimens::{SPECIMENS, scatter};
 use super::thread_arguments::ThreadArguments;
 
 /// Run the controller of a scene in closed loop.
@@ -47,7 +47,7 @@ pub struct LoopArguments {
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Run so many specimens of the sensors, each with noise and errors of its own, and with other impacts where these scatter.
-    #[arg(long, value_name = "N", value_parser = specimen_count)]
+    #[arg(long, value_name = "N", value_parser = super::whole_number(SPECIMENS))]
     pub monte_carlo: Option<NonZeroUsize>,
     /// Threads.
     #[command(flatten)]

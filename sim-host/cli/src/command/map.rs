@@ -210,7 +210,12 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     let axes = [("x", &arguments.x), ("y", &arguments.y)];
     for (name, axis) in axes {
         if let Some(axis) = axis {
-            changes.extend(toml::Value::try_from(axis).map(|axis| format!("map.{name}={axis}")));
+            let refused = |error: toml::ser::Error| SceneError::Conflict {
+                origin: origin.clone(),
+                key: format!("--{name}"),
+                reason: error.to_string(),
+            };
+            changes.push(format!("map.{name}={}", toml::Value::try_from(axis).map_err(refused)?));
         }
     }
     for change in &changes {

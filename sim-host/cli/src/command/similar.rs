@@ -9,8 +9,8 @@ use sprag_report::progress::Progress;
 use sprag_sim::effect::number::number;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
+use sprag_sim::scene::Scene;
 use sprag_sim::scene::overrides::items;
-use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::{DeviceRun, simulate};
 use sprag_studies::similarity::compare::{Departure, INSTANTS, Response};
 use sprag_studies::similarity::groups::{Group, groups, unequal};
@@ -158,9 +158,8 @@ fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, int
     let mut overrides = arguments.scene.set.clone();
     overrides.extend(items(changes).map(str::to_owned));
     // What the first block takes, the others take but for their own changes.
-    let option = if first.is_some() { "--with " } else { "--set " };
-    let own = |error: SceneError| anyhow::anyhow!(error.to_string().replace("--set ", option));
-    let mut scene = Scene::load(&arguments.scene.scene, &overrides).map_err(own)?;
+    let option = if first.is_some() { "--with" } else { "--set" };
+    let mut scene = Scene::load(&arguments.scene.scene, &overrides).map_err(|error| error.of_option(option))?;
     arguments.records.apply(&mut scene)?;
     scene.refuse_support_records("blocks are compared by dimensionless groups, and a record of the support is none")?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {

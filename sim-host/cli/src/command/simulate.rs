@@ -23,7 +23,7 @@ use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
-use super::specimens::{self, Scattered, monte_carlo, specimen_count};
+use super::specimens::{self, SPECIMENS, Scattered, monte_carlo};
 use super::thread_arguments::ThreadArguments;
 
 /// Simulate a scene: every device under the same ground motion.
@@ -45,7 +45,7 @@ pub struct SimulateArguments {
     #[command(flatten)]
     pub output: OutputArguments,
     /// Run so many specimens of a block whose impacts differ (block.restitution_scatter), with one seed after the other.
-    #[arg(long, value_name = "N", value_parser = specimen_count)]
+    #[arg(long, value_name = "N", value_parser = super::whole_number(SPECIMENS))]
     pub monte_carlo: Option<NonZeroUsize>,
     /// Threads of these.
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! Specimens of a block whose impacts differ: a scene with one seed after the other (`sprag simulate --monte-carlo`).
 
 use std::num::NonZeroUsize;
+use std::ops::RangeInclusive;
 
 use rayon::ThreadPool;
 use rayon::prelude::*;
@@ -15,13 +16,10 @@ use sprag_sim::simulation::simulate;
 use sprag_studies::statistics::quantile;
 
 /// The most specimens of a run.
-const MOST_SPECIMENS: usize = 1_000_000_000;
+const MOST_SPECIMENS: NonZeroUsize = NonZeroUsize::new(1_000_000_000).unwrap();
 
-/// A number of specimens, 1 to a milliard.
-pub fn specimen_count(text: &str) -> Result<NonZeroUsize, String> {
-    let count = super::whole_number(1..=MOST_SPECIMENS)(text)?;
-    NonZeroUsize::new(count).ok_or_else(|| "must not be 0".to_owned())
-}
+/// Specimens that a run may have.
+pub const SPECIMENS: RangeInclusive<NonZeroUsize> = NonZeroUsize::MIN..=MOST_SPECIMENS;
 
 /// How the specimens of a device scatter.
 #[derive(Clone, Debug, Serialize)]

@@ -1,5 +1,6 @@
 //! What holds in a scene, or in all scenes of a picture: block, mass ratio and ground motion, for the line below its title.
 
+use sprag_sim::effect::number::true_minus;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::ground::{GroundTable, Motion};
 use sprag_sim::scene::schema::{GeometryName, RestitutionValue};
@@ -161,7 +162,7 @@ fn number(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     let size = rounded.abs();
     let text = if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{rounded:e}") } else { format!("{rounded}") };
-    text.replace('-', "\u{2212}")
+    true_minus(&text)
 }
 
 #[cfg(test)]

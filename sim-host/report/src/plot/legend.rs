@@ -6,6 +6,7 @@ use super::layer::{Text, escape, units, write_area, write_rect};
 use super::marker::{Marker, write_mark};
 use super::palette::{Colour, DeviceLook, GROUND, INK, Stroke, hex};
 use super::text_width::text_width_px;
+use crate::lines::in_lines;
 
 const TITLE_FONT_PX: f64 = 14.0;
 const CONDITIONS_FONT_PX: f64 = 12.0;
@@ -178,32 +179,14 @@ pub(super) fn shortened(text: &str, width_px: f64) -> String {
 
 /// Lines of the formulas `conditions`, broken between them.
 fn lines_of(conditions: &[String], width_px: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for condition in conditions {
-        match lines.last_mut() {
-            Some(line) if formula_width_px(&format!("{line}, {condition}"), CONDITIONS_FONT_PX) <= width_px => {
-                line.push_str(", ");
-                line.push_str(condition);
-            }
-            _ => lines.push(condition.clone()),
-        }
-    }
-    lines
+    let fits = |line: &str, next: &str| formula_width_px(&format!("{line}, {next}"), CONDITIONS_FONT_PX) <= width_px;
+    in_lines(conditions.iter().map(String::as_str), ", ", fits)
 }
 
 /// Lines of `title`, broken at spaces; a single word may still be too wide.
 pub(super) fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in title.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if text_width_px(line, font_px) + text_width_px(word, font_px) + font_px <= width_px => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines.iter().map(|line| escape(line)).collect()
+    let fits = |line: &str, word: &str| text_width_px(line, font_px) + text_width_px(word, font_px) + font_px <= width_px;
+    in_lines(title.split_whitespace(), " ", fits).iter().map(|line| escape(line)).collect()
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use super::decisions::DecisionReport;
 use super::run::{Ending, Tick};
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
+use crate::effect::number::true_minus;
 use crate::simulation::scatter::Scatter;
 use crate::simulation::{DeviceRun, ErrorReport};
 
@@ -131,8 +132,7 @@ impl fmt::Display for LoopSummary {
             self.impacts
         )?;
         writeln!(out, "  ideal pair   {:26} max |θ|/α {}", self.ideal_outcome.name(), number(self.ideal_peak_rotation))?;
-        // With a true minus sign, as in every table.
-        let delayed = |delay: f64| format!("{:.2} ms", 1e3 * delay).replace('-', "\u{2212}");
+        let delayed = |delay: f64| true_minus(&format!("{:.2} ms", 1e3 * delay));
         let milliseconds = |delay: Option<f64>| delay.map_or_else(|| "-".to_owned(), delayed);
         let DecisionReport { wrong_share, delay_median_s, delay_95_s, switches, ideal_switches, .. } = &self.decisions;
         writeln!(

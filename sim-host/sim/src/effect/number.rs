@@ -18,6 +18,14 @@ pub fn number(value: f64) -> String {
     trimmed(&format!("{value:.decimals$}")).to_owned()
 }
 
+/// The number with a true minus sign, as tables and pages have it; a dash stays one.
+pub fn true_minus(number: &str) -> String {
+    match number {
+        "-" => number.to_owned(),
+        _ => number.replace('-', "\u{2212}"),
+    }
+}
+
 /// Without the zeros at the end of its fraction.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }

@@ -139,9 +139,8 @@ impl Scene {
                 slides.map_err(|error| refusal(&error, origin, index))?;
             }
         }
-        for (tables, name, direction) in
-            [(&file.ground, "ground", Direction::Horizontal), (&file.vertical, "vertical", Direction::Vertical)]
-        {
+        for direction in [Direction::Horizontal, Direction::Vertical] {
+            let (name, tables) = file.motions(direction);
             for (index, motion) in tables.iter().enumerate() {
                 motion.check(direction, &|key_of_motion: &str| key(&format!("{name}.{index}.{key_of_motion}")))?;
             }

@@ -6,6 +6,7 @@ use std::path::Path;
 use super::Scene;
 use super::error::{KeyPath, SceneError};
 use super::ground::{Direction, GroundError, GroundTable, Motion};
+use super::schema::SceneFile;
 use super::support::SupportRecordTable;
 use crate::ground_motion::oscillator::Beside;
 use crate::ground_motion::{Component, GroundMotion};
@@ -147,10 +148,7 @@ impl Scene {
     }
 
     fn components(&self, direction: Direction, records: &mut Vec<RecordSummary>) -> Result<Vec<Component>, GroundError> {
-        let (name, tables) = match direction {
-            Direction::Horizontal => ("ground", &self.file.ground),
-            Direction::Vertical => ("vertical", &self.file.vertical),
-        };
+        let (name, tables) = self.file.motions(direction);
         let components = tables.iter().enumerate().map(|(index, table)| {
             let key = |key: &str| self.key(&format!("{name}.{index}.{key}"));
             table.component(self, direction, &key, records)
@@ -161,6 +159,16 @@ impl Scene {
     /// The place of `key`, for messages.
     pub fn key(&self, key: &str) -> KeyPath {
         KeyPath { origin: self.origin.clone(), key: key.to_owned() }
+    }
+}
+
+impl SceneFile {
+    /// The key and the tables of its motions in `direction`.
+    pub fn motions(&self, direction: Direction) -> (&'static str, &[GroundTable]) {
+        match direction {
+            Direction::Horizontal => ("ground", &self.ground),
+            Direction::Vertical => ("vertical", &self.vertical),
+        }
     }
 }
 

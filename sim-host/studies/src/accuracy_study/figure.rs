@@ -49,7 +49,7 @@ impl Plan {
         }
     }
 
-    /// The line of every family, in each device's panel.
+    /// The line of every family, in each device's panel; with the front where time is what errors cost.
     fn panels(&self, rows: &[Row], devices: &[String]) -> Vec<ChartPanel> {
         let panel = |(index, name): (usize, &String)| {
             let mut lines: Vec<(Family, Line)> = Vec::new();
@@ -65,7 +65,10 @@ impl Plan {
                 });
                 lines[known].1.points.push(point);
             }
-            let lines = lines.into_iter().map(|(_, line)| line).collect();
+            let mut lines: Vec<Line> = lines.into_iter().map(|(_, line)| line).collect();
+            if self.name == WORK_PRECISION && !lines.is_empty() {
+                lines.push(front(rows, index));
+            }
             ChartPanel { title: name.clone(), y_title: self.axes[1].to_owned(), y: Scale::Logarithmic, lines }
         };
         devices.iter().enumerate().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
@@ -98,11 +101,7 @@ impl Plan {
 
     /// The figure; none where nothing can be drawn.
     fn figure(&self, title: &str, rows: &[Row], devices: &[String]) -> Option<Result<Figure, PlotError>> {
-        let mut panels = self.panels(rows, devices);
-        for panel in panels.iter_mut().filter(|_| self.name == WORK_PRECISION) {
-            let device = devices.iter().position(|name| *name == panel.title).unwrap_or(0);
-            panel.lines.push(front(rows, device));
-        }
+        let panels = self.panels(rows, devices);
         let columns = panels.len().min(2);
         let title = FigureTitle { text: format!("{title}: {}", self.shows), conditions: self.note(rows).into_iter().collect() };
         let (x_title, x, keys) = (self.axes[0].to_owned(), Scale::Logarithmic, self.keys(rows));

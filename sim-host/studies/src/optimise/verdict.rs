@@ -1,7 +1,7 @@
 //! What the comparison with a rival comes to, in words.
 
-use sprag_report::text_table::true_minus;
 use sprag_shared::math::exp;
+use sprag_sim::effect::number::true_minus;
 
 use super::findings::Row;
 use super::notes::device;

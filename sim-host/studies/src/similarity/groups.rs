@@ -52,11 +52,11 @@ pub enum GroupsError {
 pub fn groups(scene: &Scene) -> Result<Vec<Group>, GroupsError> {
     let p = scene.block.frequency_parameter();
     let mut groups = Vec::new();
-    for (index, table) in scene.file.ground.iter().enumerate() {
-        groups.extend(of_motion(scene, Direction::Horizontal, index, table)?);
-    }
-    for (index, table) in scene.file.vertical.iter().enumerate() {
-        groups.extend(of_motion(scene, Direction::Vertical, index, table)?);
+    for direction in [Direction::Horizontal, Direction::Vertical] {
+        let (place, tables) = scene.file.motions(direction);
+        for (index, table) in tables.iter().enumerate() {
+            groups.extend(of_motion(scene, direction, (place, index), table)?);
+        }
     }
     for index in 0..scene.devices.len() {
         let structure = scene.structure(index);
@@ -83,11 +83,16 @@ fn structure_name(scene: &Scene, index: usize) -> String {
 }
 
 /// The groups of one motion; a record has those of its peaks. A vertical motion is one in g.
-fn of_motion(scene: &Scene, direction: Direction, index: usize, table: &GroundTable) -> Result<Vec<Group>, GroupsError> {
-    let (place, threshold, unit) = match (direction, scene.geometry()) {
-        (Direction::Vertical, _) => ("vertical", 1.0, "g"),
-        (_, Geometry::Slender) => ("ground", scene.uplift_threshold(), "(gα)"),
-        _ => ("ground", scene.uplift_threshold(), "(g tan α)"),
+fn of_motion(
+    scene: &Scene,
+    direction: Direction,
+    (place, index): (&str, usize),
+    table: &GroundTable,
+) -> Result<Vec<Group>, GroupsError> {
+    let (threshold, unit) = match (direction, scene.geometry()) {
+        (Direction::Vertical, _) => (1.0, "g"),
+        (_, Geometry::Slender) => (scene.uplift_threshold(), "(gα)"),
+        _ => (scene.uplift_threshold(), "(g tan α)"),
     };
     let p = scene.block.frequency_parameter();
     let group = |symbol: &str, value| Group::new(format!("{symbol} of {place} {index} ({})", table.kind()), value);
@@ -96,7 +101,10 @@ fn of_motion(scene: &Scene, direction: Direction, index: usize, table: &GroundTa
         let record = MeasuredRecord::from(table.record(scene, direction, &key)?);
         let scales = BlockScales { frequency_parameter_1_s: p, uplift_threshold_m_s2: threshold * GRAVITY };
         let of = |measure: Measure| measure.of(&record, 1.0, scales);
-        vec![group("PGA/(p PGV)", of(Measure::Frequency)), group(&format!("PGA/{unit}"), of(Measure::Pga) * table.scale)]
+        vec![
+            group(Measure::Frequency.formula(), of(Measure::Frequency)),
+            group(&format!("PGA/{unit}"), of(Measure::Pga) * table.scale),
+        ]
     } else {
         vec![group("ω_g/p", frequency(table, p)), group(&format!("a_g/{unit}"), amplitude(table, p, threshold))]
     };

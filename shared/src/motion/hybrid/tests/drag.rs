@@ -113,7 +113,7 @@ fn between_open_and_locked_clutches() {
     }
 }
 
-/// Through its open clutch.
+/// [`pushed_by_a_flywheel`] through its open clutch.
 #[test]
 fn a_coasting_flywheel_pushes_a_standing_block() {
     let structure = structure(Geometry::Slender, 10.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);

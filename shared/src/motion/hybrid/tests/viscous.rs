@@ -122,7 +122,7 @@ fn an_inerter_with_slip_by_two_methods_and_its_ledger() {
     }
 }
 
-/// Through the slip.
+/// [`pushed_by_a_flywheel`] through the slip.
 #[test]
 fn a_flywheel_pushes_a_standing_block_as_long_as_it_turns() {
     let structure = structure(Geometry::Slender, 10.0, DeviceKind::Inerter, SIGMA, KinematicsKind::Consistent);
