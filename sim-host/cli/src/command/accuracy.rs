@@ -35,7 +35,7 @@ pub struct AccuracyCommandArguments {
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = super::whole_number(CELLS))]
     pub cells: u8,
     /// Smallest fixed step, in 1/p; 3e-5 to 0.1.
-    #[arg(long, value_name = "STEP", default_value_t = 1e-4, value_parser = smallest_step)]
+    #[arg(long, value_name = "STEP", default_value_t = 1e-4, value_parser = super::number(SMALLEST_STEPS))]
     pub smallest_step: f64,
     /// Also count instructions a step on the microcontroller, in QEMU.
     #[arg(long)]
@@ -46,13 +46,6 @@ pub struct AccuracyCommandArguments {
     /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-}
-
-fn smallest_step(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(step) if SMALLEST_STEPS.contains(&step) => Ok(step),
-        _ => Err("must be a number from 3e-5 to 0.1".to_owned()),
-    }
 }
 
 /// What `summary.json` says of the extent and the runs.

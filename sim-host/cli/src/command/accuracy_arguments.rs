@@ -3,10 +3,14 @@
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use clap::builder::TypedValueParser as _;
 use sprag_report::long_run::error::LongRunError;
 use sprag_sim::accuracy::{Accuracy, budget};
 
 use super::context::Context;
+
+/// The longest time budget, s: a day.
+const LONGEST: f64 = 86_400.0;
 
 /// How accurate, and how long it may take.
 #[derive(Args, Clone, Debug, Default)]
@@ -16,7 +20,7 @@ pub struct AccuracyArguments {
     pub accuracy: Option<Accuracy>,
     /// Be as accurate as this many seconds allow, with all runs that errors are estimated by; says what accuracy that is, so that --accuracy
     /// gives the same again, and where even the least takes longer.
-    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", value_parser = super::number(1e-3..=LONGEST).map(Duration::from_secs_f64))]
     pub time_budget: Option<Duration>,
 }
 
@@ -68,15 +72,5 @@ impl AccuracyArguments {
     /// [`LongRunError::NoRows`] where the accuracy may be another every time.
     pub fn keeps_rows(&self, option: Option<&'static str>) -> Result<(), LongRunError> {
         option.filter(|_| self.is_chosen()).map_or(Ok(()), |option| Err(LongRunError::NoRows { option }))
-    }
-}
-
-/// The longest time budget, s: a day.
-const LONGEST: f64 = 86_400.0;
-
-fn seconds(text: &str) -> Result<Duration, String> {
-    match text.parse::<f64>() {
-        Ok(seconds) if (1e-3..=LONGEST).contains(&seconds) => Ok(Duration::from_secs_f64(seconds)),
-        _ => Err(format!("must be a number of seconds from 0.001 to {LONGEST}")),
     }
 }

@@ -48,18 +48,11 @@ pub struct BatchArguments {
     #[command(flatten)]
     pub threads: ThreadArguments,
     /// Size of the last terms of the series over the rotation that matters, 1e-20 to 0.01; without errors.
-    #[arg(long, value_name = "T", default_value = "1e-15", value_parser = tolerance, conflicts_with_all = ["accuracy", "time_budget"])]
+    #[arg(long, value_name = "T", default_value = "1e-15", value_parser = super::number(1e-20..=1e-2), conflicts_with_all = ["accuracy", "time_budget"])]
     pub tolerance: f64,
     /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (1e-20..=1e-2).contains(&value) => Ok(value),
-        _ => Err("must be a number from 1e-20 to 0.01".to_owned()),
-    }
 }
 
 /// Cases that one task works on before it looks up.

@@ -65,23 +65,23 @@ pub struct DesignArguments {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct BasisArguments {
     /// Factor on force, travel and readings of sensors, 1 to 10.
-    #[arg(long, value_name = "FACTOR", default_value_t = Basis::default().margin)]
+    #[arg(long, value_name = "FACTOR", default_value_t = Basis::default().margin, value_parser = super::any_number)]
     pub margin: f64,
     /// Factor on the torque of a clutch, and on the load of teeth where no clutch limits it, 1 to 10.
-    #[arg(long, value_name = "FACTOR", default_value_t = Basis::default().service_factor)]
+    #[arg(long, value_name = "FACTOR", default_value_t = Basis::default().service_factor, value_parser = super::any_number)]
     pub service_factor: f64,
     /// Teeth of the pinion, 12 to 200; below 17 they are undercut unless shifted.
     #[arg(long, value_name = "Z", default_value_t = Basis::default().teeth, value_parser = super::whole_number(TEETH))]
     pub teeth: u32,
     /// Face width of the gear in modules, 4 to 20.
-    #[arg(long, value_name = "MODULES", default_value_t = Basis::default().face_width_modules)]
+    #[arg(long, value_name = "MODULES", default_value_t = Basis::default().face_width_modules, value_parser = super::any_number)]
     pub face_width: f64,
     /// Bending stress in MPa that teeth may bear by Lewis's formula; without it checks.gear.allowable_stress_mpa of the scene, or else 200, a
     /// third of the tensile strength of a steel of 600 MPa.
-    #[arg(long, value_name = "MPA")]
+    #[arg(long, value_name = "MPA", value_parser = super::any_number)]
     pub allowable_stress: Option<f64>,
     /// Share by which the largest rotation may grow through late clutches, above 0, to 1.
-    #[arg(long, value_name = "SHARE", default_value_t = Basis::default().tolerance)]
+    #[arg(long, value_name = "SHARE", default_value_t = Basis::default().tolerance, value_parser = super::any_number)]
     pub tolerance: f64,
 }
 

@@ -58,6 +58,8 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 use std::str::FromStr;
 
+use sprag_sim::keys::bounds::Bounds;
+
 /// Reads a whole number within `range`, as an option has it.
 fn whole_number<T: FromStr + PartialOrd + Display + Clone>(
     range: RangeInclusive<T>,
@@ -66,6 +68,20 @@ fn whole_number<T: FromStr + PartialOrd + Display + Clone>(
         let number = text.parse().ok().filter(|number| range.contains(number));
         number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
     }
+}
+
+/// Reads a number within `bounds`, as an option has it.
+fn number(bounds: impl Into<Bounds>) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    let bounds = bounds.into();
+    move |text| {
+        let number = text.parse().ok().filter(|number| bounds.allow(*number));
+        number.ok_or_else(|| format!("must be a number {}", bounds.in_words("")))
+    }
+}
+
+/// Reads a number whose range something else holds it to.
+fn any_number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| "must be a number".to_owned())
 }
 
 /// What is shown while a time budget is planned.

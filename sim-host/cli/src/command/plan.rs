@@ -27,7 +27,7 @@ pub struct PlanArguments {
     #[arg(long, value_name = "N", value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub parts: Option<u32>,
     /// Length of a part on one core, s, as a rough rate of rows has it; machines differ.
-    #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = super::number(0.001..=86400.0))]
     pub part_seconds: f64,
     /// Print a script for Slurm that makes all parts as one array.
     #[arg(long)]
@@ -35,13 +35,6 @@ pub struct PlanArguments {
     /// The command and its options, after two dashes.
     #[arg(value_name = "COMMAND", required = true, last = true)]
     pub command: Vec<String>,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (0.001..=86400.0).contains(&value) => Ok(value),
-        _ => Err("must be a number from 0.001 to 86400".to_owned()),
-    }
 }
 
 impl Run for PlanArguments {

@@ -8,6 +8,7 @@ use sprag_report::output::Versioned;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_shared::math;
+use sprag_sim::keys::bounds::Bounds;
 use sprag_sim::record::intensity::uniform_duration_s;
 use sprag_sim::record::{Intensity, Record, RecordSummary, STANDARD_GRAVITY_M_S2};
 
@@ -30,16 +31,11 @@ pub struct RecordArguments {
     pub json: bool,
     /// Slenderness in degrees, above 0 and below 90, for the uniform duration: the time during which the ground
     /// acceleration exceeds g tan(slenderness).
-    #[arg(long, value_name = "A", value_parser = slenderness)]
+    #[arg(long, value_name = "A", value_parser = super::number(Bounds { low: Some((0.0, false)), high: Some((90.0, false)) }))]
     pub slenderness_deg: Option<f64>,
     /// What the files do not say.
     #[command(flatten)]
     pub reading: ReadArguments,
-}
-
-fn slenderness(text: &str) -> Result<f64, String> {
-    let value = text.parse::<f64>().map_err(|_| "a number is due".to_owned())?;
-    if value > 0.0 && value < 90.0 { Ok(value) } else { Err("above 0 and below 90 degrees are allowed".to_owned()) }
 }
 
 /// One file's entry in the JSON output.

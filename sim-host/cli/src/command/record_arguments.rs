@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use sprag_sim::record::{Component, ReadOptions, Units};
+use sprag_sim::record::{Component, ReadOptions, TIME_STEP_RANGE_S, Units};
 use sprag_sim::scene::ground::{GroundTable, Motion};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_studies::cloud::study_file::RecordTable;
@@ -15,13 +15,13 @@ pub struct ReadArguments {
     #[arg(long, value_name = "U")]
     pub units: Option<Units>,
     /// Time step in s of record files that do not state theirs, or a stated one with more digits.
-    #[arg(long, value_name = "S", value_parser = time_step)]
+    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEP_RANGE_S.0..=TIME_STEP_RANGE_S.1))]
     pub dt: Option<f64>,
     /// Component of record files with several: a name such as x or y, or a number from 1.
     #[arg(long, value_name = "C")]
     pub component: Option<String>,
     /// Resample records linearly to this time step in s, also from unequal steps.
-    #[arg(long, value_name = "S", value_parser = time_step)]
+    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEP_RANGE_S.0..=TIME_STEP_RANGE_S.1))]
     pub resample: Option<f64>,
 }
 
@@ -37,12 +37,6 @@ pub struct SceneRecordArguments {
     /// How they are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-}
-
-fn time_step(text: &str) -> Result<f64, String> {
-    let (lowest, highest) = sprag_sim::record::TIME_STEP_RANGE_S;
-    let value = text.parse::<f64>().map_err(|_| "a number is due".to_owned())?;
-    if (lowest..=highest).contains(&value) { Ok(value) } else { Err(format!("{lowest} to {highest} s are allowed")) }
 }
 
 impl ReadArguments {

@@ -28,34 +28,34 @@ pub struct SynthesizeArguments {
     #[arg(long, default_value_t = DEFAULT.seed, value_parser = super::whole_number(0..=u64::MAX))]
     pub seed: u64,
     /// Duration in s, 5 to 120.
-    #[arg(long, default_value_t = DEFAULT.duration_s, value_name = "S")]
+    #[arg(long, default_value_t = DEFAULT.duration_s, value_name = "S", value_parser = super::any_number)]
     pub duration: f64,
     /// Samples per second, 50 to 1000.
-    #[arg(long, default_value_t = DEFAULT.rate_hz, value_name = "HZ")]
+    #[arg(long, default_value_t = DEFAULT.rate_hz, value_name = "HZ", value_parser = super::any_number)]
     pub rate: f64,
     /// Velocity amplitude A of the pulse in m/s, 0 to 5.
-    #[arg(long, default_value_t = DEFAULT.pulse_velocity_m_s, value_name = "M/S")]
+    #[arg(long, default_value_t = DEFAULT.pulse_velocity_m_s, value_name = "M/S", value_parser = super::any_number)]
     pub pulse_velocity: f64,
     /// Period of the pulse in s, 0.3 to 15.
-    #[arg(long, default_value_t = DEFAULT.pulse_period_s, value_name = "S")]
+    #[arg(long, default_value_t = DEFAULT.pulse_period_s, value_name = "S", value_parser = super::any_number)]
     pub pulse_period: f64,
     /// Cycles under the envelope of the pulse (gamma), above 1 and up to 10.
-    #[arg(long, default_value_t = DEFAULT.pulse_cycles, value_name = "CYCLES")]
+    #[arg(long, default_value_t = DEFAULT.pulse_cycles, value_name = "CYCLES", value_parser = super::any_number)]
     pub pulse_cycles: f64,
     /// Phase of the pulse (nu) in degrees, -360 to 360.
-    #[arg(long, default_value_t = DEFAULT.pulse_phase_deg, value_name = "DEG", allow_negative_numbers = true)]
+    #[arg(long, default_value_t = DEFAULT.pulse_phase_deg, value_name = "DEG", value_parser = super::any_number, allow_negative_numbers = true)]
     pub pulse_phase_deg: f64,
     /// Middle of the pulse in s; the whole pulse must lie within the duration.
-    #[arg(long, default_value_t = DEFAULT.pulse_time_s, value_name = "S")]
+    #[arg(long, default_value_t = DEFAULT.pulse_time_s, value_name = "S", value_parser = super::any_number)]
     pub pulse_time: f64,
     /// Peak acceleration of the noise in g, 0 to 2.
-    #[arg(long, default_value_t = DEFAULT.noise_peak_g, value_name = "G")]
+    #[arg(long, default_value_t = DEFAULT.noise_peak_g, value_name = "G", value_parser = super::any_number)]
     pub noise_peak: f64,
     /// Lower end of the noise band in Hz, 0.1 or more.
-    #[arg(long, default_value_t = DEFAULT.lowest_frequency_hz, value_name = "HZ")]
+    #[arg(long, default_value_t = DEFAULT.lowest_frequency_hz, value_name = "HZ", value_parser = super::any_number)]
     pub lowest_frequency: f64,
     /// Upper end of the noise band in Hz, up to a quarter of the sampling rate.
-    #[arg(long, default_value_t = DEFAULT.highest_frequency_hz, value_name = "HZ")]
+    #[arg(long, default_value_t = DEFAULT.highest_frequency_hz, value_name = "HZ", value_parser = super::any_number)]
     pub highest_frequency: f64,
 }
 

@@ -131,7 +131,10 @@ fn levels_that_make_no_sense_are_refused() {
         (&["simulate", &scene, "--time-budget", "nan"], "0.001"),
         (&["batch", "cases.csv", "--out", "x.csv", "--accuracy", "fast", "--tolerance", "1e-9"], "cannot be used with"),
         (&["simulate", &scene, "--set", "accuracy.level=\"fast\"", "--set", "accuracy.tolerance=1e-9"], "accuracy.level"),
-        (&["accuracy", &scene, "--smallest-step", "1"], "3e-5"),
+        (&["accuracy", &scene, "--smallest-step", "1"], "must be a number from 3e-5 to 0.1"),
+        (&["record", "r.csv", "--slenderness-deg", "90"], "must be a number above 0 and below 90"),
+        (&["record", "r.csv", "--dt", "one"], "must be a number from 1e-5 to 1"),
+        (&["design", &scene, "--margin", "much"], "must be a number"),
     ] {
         let output = sprag(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", said(&output));

@@ -1,5 +1,7 @@
 //! The range of a number, and the length of a list.
 
+use std::ops::RangeInclusive;
+
 use serde_json::Value as Schema;
 use sprag_shared::structure::error::Number;
 use toml::Value;
@@ -15,6 +17,12 @@ pub struct Bounds {
     pub low: Option<(f64, bool)>,
     /// Largest value.
     pub high: Option<(f64, bool)>,
+}
+
+impl From<RangeInclusive<f64>> for Bounds {
+    fn from(range: RangeInclusive<f64>) -> Bounds {
+        Bounds { low: Some((*range.start(), true)), high: Some((*range.end(), true)) }
+    }
 }
 
 impl Bounds {

@@ -56,7 +56,7 @@ fn schemas_have_no_null_which_toml_cannot_write() {
 #[test]
 fn both_ends_of_every_range_are_held() {
     use bounds::Bounds;
-    let closed = Bounds { low: Some((0.0, true)), high: Some((1.0, true)) };
+    let closed = Bounds::from(0.0..=1.0);
     let open = Bounds { low: Some((0.0, false)), high: Some((1.0, false)) };
     assert!(closed.allow(0.0) && closed.allow(1.0) && !closed.allow(-f64::MIN_POSITIVE) && !closed.allow(1.0 + f64::EPSILON));
     assert!(!open.allow(0.0) && !open.allow(1.0) && open.allow(f64::MIN_POSITIVE));
