@@ -72,9 +72,9 @@ pub fn boundaries(grid: &Grid, device: usize, outcome: &[u8], lanes: Lanes<'_>) 
     }
     let evaluate = |places: &[Values]| {
         let results = results(grid, device, places, lanes)?;
-        Ok::<_, CellError>(results.iter().map(|result| result.outcome).collect())
+        Ok(results.iter().map(|result| result.outcome).collect())
     };
-    let found = refine(grid, device, &outcomes, EVALUATIONS, evaluate).map_err(PageError::failed)?;
+    let found = refine(grid, device, &outcomes, EVALUATIONS, &evaluate).map_err(PageError::failed)?;
     let each = found.boundaries.iter().map(|boundary| {
         let vertices = boundary.vertices.iter().flat_map(|&(x, y)| [x, y.unwrap_or(f64::NAN)]);
         vec![

@@ -3,8 +3,9 @@
 use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 
+use super::cell::CellError;
 use super::grid::{Grid, Values};
-use super::refine::{Polyline, Position, Tolerance, trace};
+use super::refine::{Evaluate, Polyline, Position, Tolerance, trace};
 use crate::scene::map::{AxisTable, ScaleName};
 
 /// How closely boundaries are followed, relative to the value of either axis.
@@ -57,17 +58,18 @@ impl Boundaries {
 ///
 /// # Errors
 /// Those of `evaluate`.
-pub fn refine<E>(
+// Not generic, so that it is compiled here, where it is optimised.
+pub fn refine(
     grid: &Grid,
     device: usize,
     outcomes: &[Outcome],
     evaluations: usize,
-    evaluate: impl Fn(&[Values]) -> Result<Vec<Outcome>, E>,
-) -> Result<Boundaries, E> {
+    evaluate: Evaluate<'_, Values, Outcome, CellError>,
+) -> Result<Boundaries, CellError> {
     let values = |place: &Position| grid.values_at(place.column, place.row);
     let tolerance = Tolerance { columns: shares(&grid.map.x), rows: grid.map.y.as_ref().map(shares).unwrap_or_default() };
     let at_positions = |places: &[Position]| evaluate(&places.iter().map(values).collect::<Vec<_>>());
-    let traced = trace(grid.columns(), outcomes, tolerance, evaluations, at_positions)?;
+    let traced = trace(grid.columns(), outcomes, tolerance, evaluations, &at_positions)?;
     let boundary = |Polyline { left, right, vertices }: &Polyline<Outcome>| Boundary {
         left: *left,
         right: *right,

@@ -25,7 +25,7 @@ pub fn refine(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Boundaries, CellError> {
-    boundaries::refine(grid, device, outcomes, evaluations, |places: &[Values]| {
+    boundaries::refine(grid, device, outcomes, evaluations, &|places: &[Values]| {
         progress.begin(places.len() as u64);
         let share = places.len().div_ceil(4 * rayon::current_num_threads()).clamp(LEAST_AT_ONCE, MOST_AT_ONCE);
         let parts = places.par_chunks(share).map(|part| {

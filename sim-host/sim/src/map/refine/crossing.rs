@@ -2,8 +2,11 @@
 
 use std::collections::HashMap;
 
+use foldhash::fast::FixedState;
+
 use super::lattice::{Along, Edge, Lattice, Point, Position};
 use super::square::Square;
+use super::trace::Evaluate;
 
 /// A change of outcome on an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,24 +31,26 @@ impl<O> Crossing<O> {
 const MOST_FORKS: u32 = 2;
 
 /// Outcomes of points, each evaluated once and no more of them than a budget allows.
-pub(super) struct Outcomes<'a, O, F> {
+pub(super) struct Outcomes<'a, O, E> {
     pub lattice: Lattice,
     columns: usize,
     grid: &'a [O],
-    found: HashMap<Point, O>,
-    evaluate: F,
+    found: HashMap<Point, O, FixedState>,
+    evaluate: Evaluate<'a, Position, O, E>,
     budget: usize,
     /// A point was wanted that the budget did not allow.
     pub exhausted: bool,
 }
 
-impl<'a, O, E, F> Outcomes<'a, O, F>
-where
-    O: Copy + Eq,
-    F: Fn(&[Position]) -> Result<Vec<O>, E>,
-{
-    pub(super) fn new(lattice: Lattice, columns: usize, grid: &'a [O], evaluate: F, budget: usize) -> Self {
-        Outcomes { lattice, columns, grid, found: HashMap::new(), evaluate, budget, exhausted: false }
+impl<'a, O: Copy + Eq, E> Outcomes<'a, O, E> {
+    pub(super) fn new(
+        lattice: Lattice,
+        columns: usize,
+        grid: &'a [O],
+        evaluate: Evaluate<'a, Position, O, E>,
+        budget: usize,
+    ) -> Self {
+        Outcomes { lattice, columns, grid, found: HashMap::default(), evaluate, budget, exhausted: false }
     }
 
     /// Columns of the grid.
@@ -158,7 +163,7 @@ where
     }
 
     /// The grid's own edges: those of a row, or of a column.
-    pub(super) fn grid_edges(&self) -> impl Iterator<Item = Edge> + use<O, E, F> {
+    pub(super) fn grid_edges(&self) -> impl Iterator<Item = Edge> + use<O, E> {
         let (columns, rows, length) = (self.columns, self.grid.len() / self.columns.max(1), self.lattice.step());
         let places = (0..columns * rows).map(move |index| (index % columns, index / columns));
         places.flat_map(move |(column, row)| {

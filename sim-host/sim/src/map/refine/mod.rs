@@ -18,4 +18,4 @@ mod trace;
 mod tree;
 
 pub use lattice::{Position, Tolerance};
-pub use trace::{Polyline, Traced, Unresolved, trace};
+pub use trace::{Evaluate, Polyline, Traced, Unresolved, trace};

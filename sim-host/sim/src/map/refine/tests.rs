@@ -25,7 +25,7 @@ fn traced(tolerance: f64, budget: usize, outcome: impl Fn(f64, f64) -> u8) -> Tr
         };
         Ok::<_, Infallible>(places.iter().map(new).collect())
     };
-    let Ok(traced) = trace(GRID, &grid, Tolerance { columns: shares.clone(), rows: shares }, budget, evaluate);
+    let Ok(traced) = trace(GRID, &grid, Tolerance { columns: shares.clone(), rows: shares }, budget, &evaluate);
     assert_eq!(traced.evaluations, seen.borrow().len());
     assert!(traced.evaluations <= budget);
     traced
@@ -266,14 +266,14 @@ fn a_single_row_is_narrowed() {
     let grid: Vec<u8> = (0..5).map(|index| outcome(index as f64 / steps)).collect();
     let evaluate = |places: &[Position]| Ok::<_, Infallible>(places.iter().map(|place| outcome(place.column / steps)).collect());
     let tolerance = || Tolerance { columns: vec![4e-6; 4], rows: Vec::new() };
-    let Ok(found) = trace(5, &grid, tolerance(), PLENTY, evaluate);
+    let Ok(found) = trace(5, &grid, tolerance(), PLENTY, &evaluate);
     let [first, second] = &found.polylines[..] else { panic!("{found:?}") };
     for (polyline, at, pair) in [(first, 0.3, (0, 1)), (second, 0.31, (1, 2))] {
         assert_eq!((polyline.left, polyline.right), pair);
         assert!((polyline.vertices[0].column / steps - at).abs() < 1e-6);
     }
     assert_eq!(found.unresolved, Default::default());
-    let Ok(poor) = trace(5, &grid, tolerance(), 5, evaluate);
+    let Ok(poor) = trace(5, &grid, tolerance(), 5, &evaluate);
     assert!(poor.evaluations == 5 && poor.unresolved.squares == 2 && poor.unresolved.largest > 1e3, "{poor:?}");
 }
 

@@ -5,6 +5,9 @@ use super::lattice::{Edge, Lattice, Point, Position, Tolerance};
 use super::polyline::Chain;
 use super::tree::Tree;
 
+/// Gives the outcomes of places, in order.
+pub type Evaluate<'a, P, O, E> = &'a dyn Fn(&[P]) -> Result<Vec<O>, E>;
+
 /// A boundary between two outcomes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline<O> {
@@ -46,16 +49,13 @@ pub struct Traced<O> {
 ///
 /// # Errors
 /// The errors of `evaluate`.
-pub fn trace<O, E>(
+pub fn trace<O: Copy + Ord, E>(
     columns: usize,
     grid: &[O],
     tolerance: Tolerance,
     budget: usize,
-    evaluate: impl Fn(&[Position]) -> Result<Vec<O>, E>,
-) -> Result<Traced<O>, E>
-where
-    O: Copy + Ord,
-{
+    evaluate: Evaluate<'_, Position, O, E>,
+) -> Result<Traced<O>, E> {
     let rows = grid.len().checked_div(columns).unwrap_or(0);
     let outcomes = Outcomes::new(Lattice::new(tolerance), columns, grid, evaluate, budget);
     if rows < 2 {
@@ -67,11 +67,7 @@ where
 }
 
 /// A single row of the grid.
-fn row<O, E, F>(mut outcomes: Outcomes<'_, O, F>) -> Result<Traced<O>, E>
-where
-    O: Copy + Ord,
-    F: Fn(&[Position]) -> Result<Vec<O>, E>,
-{
+fn row<O: Copy + Ord, E>(mut outcomes: Outcomes<'_, O, E>) -> Result<Traced<O>, E> {
     let edges: Vec<Edge> = outcomes.grid_edges().collect();
     let mut crossings = Vec::new();
     loop {

@@ -2,8 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
+use foldhash::fast::FixedState;
+
 use super::crossing::{Crossing, Outcomes};
-use super::lattice::{Edge, Point, Position};
+use super::lattice::{Edge, Point};
 use super::polyline::{Joined, Piece, chains};
 use super::square::Square;
 use super::strands::{STRAIGHT, Strands};
@@ -34,28 +36,24 @@ struct Leaf {
 }
 
 /// Squares of the grid, quarters of those, and so on where boundaries are.
-pub(super) struct Tree<'a, O, F> {
-    outcomes: Outcomes<'a, O, F>,
+pub(super) struct Tree<'a, O, E> {
+    outcomes: Outcomes<'a, O, E>,
     /// Upper right corner of the grid.
     end: Point,
-    divided: HashSet<Square>,
+    divided: HashSet<Square, FixedState>,
     leaves: BTreeMap<Square, Leaf>,
     /// Leaves to divide: those with a single boundary first, then tangles; larger ones before smaller ones.
     waiting: BTreeSet<(bool, Square)>,
 }
 
-impl<'a, O, E, F> Tree<'a, O, F>
-where
-    O: Copy + Ord,
-    F: Fn(&[Position]) -> Result<Vec<O>, E>,
-{
+impl<'a, O: Copy + Ord, E> Tree<'a, O, E> {
     /// The squares of a grid with so many rows, two or more, which no boundary has been followed in.
-    pub(super) fn new(mut outcomes: Outcomes<'a, O, F>, rows: usize) -> Result<Self, E> {
+    pub(super) fn new(mut outcomes: Outcomes<'a, O, E>, rows: usize) -> Result<Self, E> {
         let edges: Vec<Edge> = outcomes.grid_edges().collect();
         outcomes.narrow(edges)?;
         let step = outcomes.lattice.step();
         let end = Point { x: (outcomes.columns() as u64 - 1) * step, y: (rows as u64 - 1) * step };
-        let mut tree = Tree { outcomes, end, divided: HashSet::new(), leaves: BTreeMap::new(), waiting: BTreeSet::new() };
+        let mut tree = Tree { outcomes, end, divided: HashSet::default(), leaves: BTreeMap::new(), waiting: BTreeSet::new() };
         for corner in (0..end.y / step).flat_map(|y| (0..end.x / step).map(move |x| Point { x: x * step, y: y * step })) {
             tree.look(Square { level: 0, corner });
         }
