@@ -3,21 +3,19 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use ttf_parser::Face;
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     // Both are of this build alone, so that nothing but a broken package of the font ends it here.
-    let font = FontRef::new(dejavu::sans::regular()).expect("the font can be read");
-    let metrics = font.glyph_metrics(Size::unscaled(), LocationRef::default());
-    let width = |(character, glyph)| Some((u16::try_from(character).ok()?, metrics.advance_width(glyph)?));
-    let mut widths: Vec<(u16, f32)> = font.charmap().mappings().filter_map(width).collect();
-    widths.sort_by_key(|(character, _)| *character);
-    let mut table = format!(
-        "/// Units of a font size of 1.\nconst UNITS: f32 = {}_f32;\n",
-        font.metrics(Size::unscaled(), LocationRef::default()).units_per_em
-    );
+    let font = Face::parse(dejavu::sans::regular(), 0).expect("the font can be read");
+    let width = |character: u16| {
+        // Glyph 0 is drawn for characters that the font lacks.
+        let glyph = font.glyph_index(char::from_u32(character.into())?).filter(|glyph| glyph.0 > 0)?;
+        Some((character, font.glyph_hor_advance(glyph)?))
+    };
+    let widths: Vec<(u16, u16)> = (0..=u16::MAX).filter_map(width).collect();
+    let mut table = format!("/// Units of a font size of 1.\nconst UNITS: f32 = {}_f32;\n", font.units_per_em());
     _ = writeln!(
         table,
         "/// Characters of the basic plane and their widths, in units.\nstatic WIDTHS: [(u16, u16); {}] = [",
