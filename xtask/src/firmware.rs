@@ -100,9 +100,11 @@ pub const IMAGES: &[Image] = &[CORE, BOARD, BOARD_G474, IN_EMULATOR, LOGGING];
 pub const LINTED: &[Image] = &[CORE, BOARD, BOARD_G474, LOGGING];
 
 impl Image {
-    /// A command of cargo on this image, for the board.
+    /// A command of cargo on this image, for the board. Lints and documents go by the profile of the build too, so that they share its
+    /// procedural macros.
     pub fn cargo(&self, root: &Path, subcommand: &str) -> Command {
         let mut command = cargo_in(root, self.workspace, &[subcommand, "--package", self.package, "--target", TARGET]);
+        command.args(["--profile", self.profile]);
         if !self.features.is_empty() {
             command.args(["--no-default-features", "--features", &self.features.join(",")]);
         }
@@ -124,7 +126,6 @@ impl Image {
     pub fn build(&self, root: &Path) -> Result<PathBuf, Stop> {
         let is_firmware = self.workspace == BOARD.workspace;
         let mut command = self.cargo(root, if is_firmware { "rustc" } else { "build" });
-        command.args(["--profile", self.profile]);
         let mut to_compiler = Vec::new();
         if is_firmware {
             let object = self.object(root);

@@ -176,7 +176,7 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Ticks => ticks::run(root),
         Task::BoardImage { what: Counted::Ticks } => board_image::measure(root, "ticks"),
         Task::BoardImage { what: Counted::Profile } => board_image::measure(root, "profile"),
-        Task::Hardware => hardware::run(root, &mut Steps::default(), true),
+        Task::Hardware => hardware::run(root, &mut Steps::default()),
         Task::Python { dist } => python::Started::new(root, dist)?.check(root, &mut Steps::default(), None),
         Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),

@@ -25,6 +25,16 @@ const PICTURES: [(&str, [&str; 2], &str); 2] = [
     ("docs/readme/map.svg", ["map", "scenes/figure08.toml"], "map.svg"),
 ];
 
+/// All features of the command, in the words of a build of the workspace.
+pub const FULL: &str = "sprag-cli/full";
+
+/// Documents the Rust packages, every warning an error.
+pub fn rust_documents(root: &Path) -> Command {
+    let mut document = cargo(root, &["doc", "--workspace", "--no-deps", "--features", FULL]);
+    document.env("RUSTDOCFLAGS", "-D warnings");
+    document
+}
+
 /// Builds the site, every warning an error, draws the committed pictures anew to compare them, and follows all links within the site.
 ///
 /// # Errors
@@ -49,8 +59,8 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         done(build.args(["--doctree-dir", "target/site-pages", SOURCES, SITE]))
     })?;
     steps.step("site, Rust packages", || {
-        // As the check of the documentation has it, which is not made anew then.
-        done(cargo(root, &["doc", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))?;
+        // Not made anew where the documentation was checked before.
+        done(&mut rust_documents(root))?;
         done(Command::new("cp").arg("-R").arg(target_folder(root).join("doc")).arg(site.join("rust")))
     })?;
     steps.step("links of the site", || {

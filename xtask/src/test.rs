@@ -7,7 +7,9 @@ use crate::{
     hardware, package, panic_check,
     passed::Passed,
     process::{Beside, cargo, cargo_in, host, run as done, target_folder},
-    python, site, size,
+    python,
+    site::{self, rust_documents},
+    size,
     steps::Steps,
     stop::Stop,
     tools, web,
@@ -20,11 +22,8 @@ const EXHAUSTIVE: Passed = Passed {
     file: "tests/tests/motion/sine_exhaustive.passed",
 };
 
-/// The part of the name that all these tests have in common.
-const EXHAUSTIVE_NAME: &str = "exhaustive::every_";
-
-/// All features of the command, in the words of a build of the workspace.
-const FULL: &str = "sprag-cli/full";
+/// Tests that are not run again with the same sources, by what their names have in common.
+const KEPT: [(&str, Passed); 2] = [("exhaustive::every_", EXHAUSTIVE), ("coil::tests::needs_ngspice::", hardware::COIL_TESTS)];
 
 /// Runs every check; where `fuzz_seconds` are given, those too that have passed with the same sources before, the installed program, and each
 /// fuzz target for so long.
@@ -37,6 +36,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         tools::need_target(root, TARGET)?;
         tools::need_emulator()?;
         tools::need_unicorn()?;
+        tools::need_circuit_simulator()?;
         tools::need_cxx()
     })?;
     steps.step("format", || {
@@ -54,7 +54,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         ])
         .collect::<Result<_, Stop>>()?;
     steps.step("lints, host", || {
-        done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--features", FULL, "--", "-D", "warnings"]))
+        done(&mut cargo(root, &["clippy", "--workspace", "--all-targets", "--features", site::FULL, "--", "-D", "warnings"]))
     })?;
     // Not the tests: they are of the whole program.
     steps.step("lints, parts of host", || {
@@ -63,9 +63,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
     })?;
-    steps.step("documentation", || {
-        done(cargo(root, &["doc", "--workspace", "--no-deps", "--features", FULL]).env("RUSTDOCFLAGS", "-D warnings"))
-    })?;
+    steps.step("documentation", || done(&mut rust_documents(root)))?;
     steps.step("rest of board's lints and documentation, of bindings", || others.into_iter().try_for_each(Beside::wait))?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;
@@ -82,7 +80,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             &["clippy", "--package", "sprag-drivers", "--all-targets", "--target", &host, "--", "-D", "warnings"],
         ))
     })?;
-    hardware::run(root, &mut steps, fuzz_seconds.is_some())?;
+    hardware::schematic(root, &mut steps, fuzz_seconds.is_some())?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
     let fuzz_targets = Beside::start(&mut fuzz::check(root))?;
@@ -108,7 +106,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     }
 }
 
-/// Runs every test of the workspace but those whose needs this machine cannot meet, which are named, and exhaustive ones that have passed
+/// Runs every test of the workspace but those whose needs this machine cannot meet, which are named, and those of [`KEPT`] that have passed
 /// with these sources, unless all are wanted. A need that it may not meet is the name of a module.
 fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
     let mut command = cargo(root, &["test", "--workspace", "--", "--include-ignored"]);
@@ -124,17 +122,21 @@ fn tests(root: &Path, built: &Built, all: bool) -> Result<(), Stop> {
         Ok(python) => _ = command.env("SPRAG_PYTHON", python),
         Err(stop) => lacking.push(("needs_python", stop.to_string())),
     }
-    let sources = EXHAUSTIVE.checksum(root)?;
-    let passed = !all && EXHAUSTIVE.holds(root, &sources);
-    if passed {
-        lacking.push((EXHAUSTIVE_NAME, "passed with the same sources before".to_owned()));
+    let mut changed = Vec::new();
+    for (name, checks) in KEPT {
+        let sources = checks.checksum(root)?;
+        if !all && checks.holds(root, &sources) {
+            lacking.push((name, "passed with the same sources before".to_owned()));
+        } else {
+            changed.push((checks, sources));
+        }
     }
     for (need, _) in &lacking {
         command.args(["--skip", need]);
     }
     let result = done(&mut command);
-    if result.is_ok() && !passed {
-        EXHAUSTIVE.keep(root, &sources)?;
+    if result.is_ok() {
+        changed.iter().try_for_each(|(checks, sources)| checks.keep(root, sources))?;
     }
     for (need, why) in lacking {
         println!("-- tests not run: {need}: {why}");

@@ -24,11 +24,16 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// What a browser's registers of 128 bits are called.
 const SIMD: &str = "target.wasm32-unknown-unknown.rustflags=[\"-Ctarget-feature=+simd128\"]";
 
-/// Modules: folder of the page's sources, package, file, further words of cargo. The lanes are built twice, for browsers without SIMD too.
-const MODULES: [(&str, &str, &str, &[&str]); 3] = [
-    ("page", "sprag-page", "sprag_page", &[]),
-    ("lanes", "sprag-page-lanes", "sprag_lanes", &[]),
-    ("lanes-simd", "sprag-page-lanes", "sprag_lanes", &["--config", SIMD]),
+/// Packages of the modules.
+const PACKAGES: [&str; 4] = ["--package", "sprag-page", "--package", "sprag-page-lanes"];
+
+/// A build: words of cargo, and of each module the folder of the page's sources and the file.
+type Build = (&'static [&'static str], &'static [(&'static str, &'static str)]);
+
+/// Both modules at once, so that they share what they are built of; and the lanes again for browsers with SIMD.
+const BUILDS: [Build; 2] = [
+    (&PACKAGES, &[("page", "sprag_page"), ("lanes", "sprag_lanes")]),
+    (&["--package", "sprag-page-lanes", "--config", SIMD], &[("lanes-simd", "sprag_lanes")]),
 ];
 
 /// Builds the page into web/dist, and tests it in a browser.
@@ -44,12 +49,12 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
     })?;
     steps.step("core of the page", || {
         empty(&folder.join("src/core"))?;
-        MODULES.iter().try_for_each(|module| build(root, module))
+        build(root)
     })?;
     // What the host's lints do not see.
     steps.step("lints, core of the page", || {
-        let packages = ["--package", "sprag-page", "--package", "sprag-page-lanes", "--", "-D", "warnings"];
-        done(cargo(root, &["clippy", "--profile", PROFILE, "--target", TARGET]).args(packages))
+        let lints = ["--", "-D", "warnings"];
+        done(cargo(root, &["clippy", "--profile", PROFILE, "--target", TARGET]).args(PACKAGES).args(lints))
     })?;
     let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
     steps.step("page", || {
@@ -77,7 +82,7 @@ pub fn beside(root: &Path) -> Result<Beside, Stop> {
 /// If something cannot be built, or there is no Node.
 pub fn speed(root: &Path) -> Result<(), Stop> {
     let folder = root.join(FOLDER);
-    MODULES.iter().try_for_each(|module| build(root, module))?;
+    build(root)?;
     let native = output(&mut cargo(root, &["bench", "--quiet", "--package", "sprag-cli", "--bench", "maps"]))?;
     let path = tools::path_with_node(root)?;
     let page = output(Command::new("node").current_dir(&folder).env("PATH", path).arg("benches/lanes.mjs"))?;
@@ -103,11 +108,16 @@ pub fn speed(root: &Path) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Builds a module, and writes its JavaScript beside it.
-fn build(root: &Path, (name, package, file, words): &(&str, &str, &str, &[&str])) -> Result<(), Stop> {
-    done(cargo(root, &["build", "--profile", PROFILE, "--package", package, "--target", TARGET]).args(*words))?;
-    let module = target_folder(root).join(TARGET).join(PROFILE).join(file).with_extension("wasm");
-    let place = root.join(FOLDER).join("src/core").join(name);
-    fs::create_dir_all(&place).map_err(|error| Stop::failed(format!("{}: {error}", place.display())))?;
-    done(cargo_in(root, BINDINGS, &["run", "--locked", "--quiet", "--"]).arg(module).arg(place))
+/// Builds all modules, and writes the JavaScript of each beside it.
+fn build(root: &Path) -> Result<(), Stop> {
+    for (words, modules) in BUILDS {
+        done(cargo(root, &["build", "--profile", PROFILE, "--target", TARGET]).args(words))?;
+        for (name, file) in modules {
+            let module = target_folder(root).join(TARGET).join(PROFILE).join(file).with_extension("wasm");
+            let place = root.join(FOLDER).join("src/core").join(name);
+            fs::create_dir_all(&place).map_err(|error| Stop::failed(format!("{}: {error}", place.display())))?;
+            done(cargo_in(root, BINDINGS, &["run", "--locked", "--quiet", "--"]).arg(module).arg(place))?;
+        }
+    }
+    Ok(())
 }

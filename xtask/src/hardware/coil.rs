@@ -165,23 +165,27 @@ mod tests {
         assert_eq!([holds(true, None), holds(false, None), holds(true, Some(f64::NAN))], [false; 3]);
     }
 
-    #[test]
-    #[ignore = "needs ngspice"]
-    fn the_driver_is_as_it_must_be() {
-        check(&folder()).unwrap();
-    }
+    mod needs_ngspice {
+        use super::*;
 
-    #[test]
-    #[ignore = "needs ngspice"]
-    fn each_part_is_missed_where_it_is_taken_away() {
-        assert_eq!(failing("release_dry.cir", "Dclamp 0 rail SMBJ26A", ""), ["rail_peak", "low_peak"]);
-        // The clamp of 28 V at the upper end of its tolerance.
-        assert_eq!(failing("release_dry.cir", "Bv=31.9", "Bv=34.4"), ["rail_peak"]);
-        assert!(failing("release_at_worst.cir", "D2 bottom fused SS56", "").contains(&"low_peak".to_owned()));
-        assert_eq!(failing("short_break.cir", "V(amplified)>3.1", "V(amplified)>31"), ["trip", "gone", "fuse"]);
-        assert_eq!(failing("short_fuse.cir", "fuse_i2t=1.5", "fuse_i2t=1500"), ["gone", "rest"]);
-        assert_eq!(failing("hot_and_weak.cir", "hold_share=0.35", "hold_share=0.25"), ["hold_least"]);
-        assert_eq!(failing("rise_hold_release.cir", "l_coil=0.15", "l_coil=1.5").first().unwrap(), "engaged");
-        assert!(failing("rise_hold_release.cir", "modulation=20k", "modulation=1k").contains(&"ripple".to_owned()));
+        #[test]
+        #[ignore = "needs ngspice"]
+        fn the_driver_is_as_it_must_be() {
+            check(&folder()).unwrap();
+        }
+
+        #[test]
+        #[ignore = "needs ngspice"]
+        fn each_part_is_missed_where_it_is_taken_away() {
+            assert_eq!(failing("release_dry.cir", "Dclamp 0 rail SMBJ26A", ""), ["rail_peak", "low_peak"]);
+            // The clamp of 28 V at the upper end of its tolerance.
+            assert_eq!(failing("release_dry.cir", "Bv=31.9", "Bv=34.4"), ["rail_peak"]);
+            assert!(failing("release_at_worst.cir", "D2 bottom fused SS56", "").contains(&"low_peak".to_owned()));
+            assert_eq!(failing("short_break.cir", "V(amplified)>3.1", "V(amplified)>31"), ["trip", "gone", "fuse"]);
+            assert_eq!(failing("short_fuse.cir", "fuse_i2t=1.5", "fuse_i2t=1500"), ["gone", "rest"]);
+            assert_eq!(failing("hot_and_weak.cir", "hold_share=0.35", "hold_share=0.25"), ["hold_least"]);
+            assert_eq!(failing("rise_hold_release.cir", "l_coil=0.15", "l_coil=1.5").first().unwrap(), "engaged");
+            assert!(failing("rise_hold_release.cir", "modulation=20k", "modulation=1k").contains(&"ripple".to_owned()));
+        }
     }
 }
