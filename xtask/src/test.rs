@@ -7,9 +7,7 @@ use crate::{
     hardware, package, panic_check,
     passed::Passed,
     process::{Beside, cargo, cargo_in, host, run as done, target_folder},
-    python,
-    site::{self, rust_documents},
-    size,
+    python, site, size,
     steps::Steps,
     stop::Stop,
     tools, web,
@@ -63,7 +61,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
             done(cargo(root, &args).args(["--", "-D", "warnings"]))
         })
     })?;
-    steps.step("documentation", || done(&mut rust_documents(root)))?;
+    steps.step("documentation", || done(&mut site::rust_documents(root)))?;
     steps.step("rest of board's lints and documentation, of bindings", || others.into_iter().try_for_each(Beside::wait))?;
     // No step until they are needed keeps both processors busy.
     let built_tests = Beside::start(&mut cargo(root, &["test", "--workspace", "--no-run"]))?;

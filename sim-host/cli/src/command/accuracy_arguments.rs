@@ -9,9 +9,6 @@ use sprag_sim::accuracy::{Accuracy, budget};
 
 use super::context::Context;
 
-/// The longest time budget, s: a day.
-const LONGEST: f64 = 86_400.0;
-
 /// How accurate, and how long it may take.
 #[derive(Args, Clone, Debug, Default)]
 pub struct AccuracyArguments {
@@ -20,7 +17,7 @@ pub struct AccuracyArguments {
     pub accuracy: Option<Accuracy>,
     /// Be as accurate as this many seconds allow, with all runs that errors are estimated by; says what accuracy that is, so that --accuracy
     /// gives the same again, and where even the least takes longer.
-    #[arg(long, value_name = "SECONDS", value_parser = super::number(1e-3..=LONGEST).map(Duration::from_secs_f64))]
+    #[arg(long, value_name = "SECONDS", value_parser = super::number(super::SECONDS).map(Duration::from_secs_f64))]
     pub time_budget: Option<Duration>,
 }
 

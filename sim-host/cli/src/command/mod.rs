@@ -79,6 +79,9 @@ fn number(bounds: impl Into<Bounds>) -> impl Fn(&str) -> Result<f64, String> + C
     }
 }
 
+/// How long a user may have something take, s: up to a day.
+const SECONDS: RangeInclusive<f64> = 1e-3..=86_400.0;
+
 /// Reads a number whose range something else holds it to.
 fn any_number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "must be a number".to_owned())

@@ -27,7 +27,7 @@ pub struct PlanArguments {
     #[arg(long, value_name = "N", value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub parts: Option<u32>,
     /// Length of a part on one core, s, as a rough rate of rows has it; machines differ.
-    #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = super::number(0.001..=86400.0))]
+    #[arg(long, value_name = "S", default_value_t = 30.0, conflicts_with = "parts", value_parser = super::number(super::SECONDS))]
     pub part_seconds: f64,
     /// Print a script for Slurm that makes all parts as one array.
     #[arg(long)]

@@ -1,5 +1,6 @@
 //! What the command line says of records: which they are, and what their files do not say themselves.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -8,6 +9,9 @@ use sprag_sim::scene::ground::{GroundTable, Motion};
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_studies::cloud::study_file::RecordTable;
 
+/// Time steps of records, s.
+const TIME_STEPS_S: RangeInclusive<f64> = TIME_STEP_RANGE_S.0..=TIME_STEP_RANGE_S.1;
+
 /// What record files do not say themselves.
 #[derive(Args, Clone, Debug, Default)]
 pub struct ReadArguments {
@@ -15,13 +19,13 @@ pub struct ReadArguments {
     #[arg(long, value_name = "U")]
     pub units: Option<Units>,
     /// Time step in s of record files that do not state theirs, or a stated one with more digits.
-    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEP_RANGE_S.0..=TIME_STEP_RANGE_S.1))]
+    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEPS_S))]
     pub dt: Option<f64>,
     /// Component of record files with several: a name such as x or y, or a number from 1.
     #[arg(long, value_name = "C")]
     pub component: Option<String>,
     /// Resample records linearly to this time step in s, also from unequal steps.
-    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEP_RANGE_S.0..=TIME_STEP_RANGE_S.1))]
+    #[arg(long, value_name = "S", value_parser = super::number(TIME_STEPS_S))]
     pub resample: Option<f64>,
 }
 
