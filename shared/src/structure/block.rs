@@ -89,7 +89,7 @@ impl Block {
 }
 
 /// Which equation of motion: the exact one or its linearisation for a slender block.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Geometry {
     /// Eq. 15-16.
     #[default]

@@ -189,22 +189,30 @@ pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Sha
     results
 }
 
-/// Motion of each of `blocks` up to the end of its record, in their order; `None` for those that the core takes.
+/// Motion of each of `blocks` up to the end of its record, in their order; `None` for those that the core takes. Those of one kind go through the
+/// lanes together, wherever they stand.
 pub fn shake_hybrid(blocks: &[HybridBlock<'_>], registers: Registers) -> Vec<Option<HybridMotion>> {
-    let mut results = vec![None; blocks.len()];
+    let mut order: Vec<(Kind, usize)> = blocks.iter().map(HybridBlock::kind).zip(0..).collect();
+    order.sort_unstable();
+    let sorted: Vec<HybridBlock<'_>> = order.iter().map(|&(_, index)| blocks[index]).collect();
+    let mut found = vec![None; blocks.len()];
     let mut start = 0;
-    for group in blocks.chunk_by(|a, b| a.kind() == b.kind()) {
-        let results = &mut results[start..start + group.len()];
-        let kind = group[0].kind();
+    for group in order.chunk_by(|a, b| a.0 == b.0) {
+        let (kind, all) = (group[0].0, start..start + group.len());
+        let (blocks, results) = (&sorted[all.clone()], &mut found[all.clone()]);
         match kind.geometry {
             Geometry::Full => {
-                built_for(registers, OnHybridBlocks::<FullBody<Number>> { blocks: group, results, kind, body: PhantomData });
+                built_for(registers, OnHybridBlocks::<FullBody<Number>> { blocks, results, kind, body: PhantomData });
             }
             Geometry::Slender => {
-                built_for(registers, OnHybridBlocks::<SlenderBody<Number>> { blocks: group, results, kind, body: PhantomData });
+                built_for(registers, OnHybridBlocks::<SlenderBody<Number>> { blocks, results, kind, body: PhantomData });
             }
         }
-        start += group.len();
+        start = all.end;
+    }
+    let mut results = vec![None; blocks.len()];
+    for ((_, index), motion) in order.into_iter().zip(found) {
+        results[index] = motion;
     }
     results
 }

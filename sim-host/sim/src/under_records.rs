@@ -43,7 +43,7 @@ pub struct DeviceDemand {
 enum Known {
     /// With an ideal device.
     Ideal(PlainBlock),
-    /// With a real one.
+    /// With any other one, or one whose force is asked for.
     Real(Box<HybridSystem<f64>>),
 }
 
@@ -64,7 +64,7 @@ impl Subject {
         Subject { scene, known, checks: None }
     }
 
-    /// `scene`, of one device whose force and stroke are asked for too. Lanes know those of real devices.
+    /// `scene`, of one device whose force and stroke are asked for too.
     pub fn watched(scene: Scene) -> Subject {
         let checks = checks(&scene);
         let system = scene.hybrid_system(0).filter(|_| checks.is_some());
@@ -77,10 +77,10 @@ impl Subject {
     }
 }
 
-/// Who looks at force and stroke of the device of `scene`; nobody where its `[checks]` ask for more, and where it is ideal.
+/// Who looks at force and stroke of the device of `scene`; nobody where its `[checks]` ask for more.
 fn checks(scene: &Scene) -> Option<Checks<f64>> {
     let asks_for_more = scene.file.checks.as_ref().is_some_and(|checks| *checks != ChecksTable::default());
-    let device = scene.devices.first().filter(|device| !device.is_ideal() && !asks_for_more)?;
+    let device = scene.devices.first().filter(|_| !asks_for_more)?;
     let loaded = scene.structure(0).loaded().ok()?;
     let checks = Checks::new(&loaded.block, scene.geometry(), &loaded.device.mount, &device.account(&loaded));
     checks.ok().map(Checks::brief)

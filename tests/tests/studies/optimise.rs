@@ -17,6 +17,7 @@ use sprag_studies::optimise::choice_page::{choice_page, choice_picture};
 use sprag_studies::optimise::design::Candidate;
 use sprag_studies::optimise::figure::trade_off_picture;
 use sprag_studies::optimise::findings::{Findings, Row};
+use sprag_studies::optimise::motion::Motion;
 use sprag_studies::optimise::page::{choice_table, page};
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
 use sprag_studies::optimise::response::Response;
@@ -337,6 +338,20 @@ fn simulated(best: &Row, record: &Path, size_m: f64) -> DeviceRun {
     runs(&text).remove(0)
 }
 
+fn near(one: f64, other: f64, tolerance: f64) -> bool {
+    (one - other).abs() <= tolerance * other.abs().max(1e-3)
+}
+
+/// Lanes and core follow one motion to rounding, which long records of many impacts magnify.
+fn assert_alike(found: &Response, alone: &Response, tolerance: f64, motion: &Motion<'_>) {
+    let what = format!("{}: {found:?} {alone:?}", motion.scaled_name());
+    assert_eq!(found.outcome, alone.outcome, "{what}");
+    let peaks = found.peak_rotation.zip(alone.peak_rotation);
+    assert!(peaks.map_or(found.peak_rotation == alone.peak_rotation, |(one, other)| near(one, other, tolerance)), "{what}");
+    assert!(near(found.force_ratio, alone.force_ratio, tolerance), "{what}");
+    assert!(near(found.stroke_m, alone.stroke_m, tolerance), "{what}");
+}
+
 /// Outcomes, forces and strokes of the best design, again.
 pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
     answered(study, |problem, solution, findings| {
@@ -344,21 +359,18 @@ pub fn simulated_again(study: &Study, path_of: impl Fn(&str) -> PathBuf) {
         let design = solution.designs.iter().find(|design| design.candidate == best.candidate).unwrap();
         let runs: Vec<DeviceRun> = problem.motions.iter().map(|motion| simulated(best, &path_of(&motion.name), 1.0)).collect();
         for ((motion, response), run) in problem.motions.iter().zip(&design.responses).zip(&runs) {
-            let response = response.as_ref().unwrap();
-            assert_eq!((response.outcome, response.peak_rotation), (run.outcome, run.peak_rotation), "{}", motion.scaled_name());
-            let checks = run.checks.as_ref().unwrap();
-            assert_eq!(Some(response.force_ratio), run.peak_force_ratio, "{}", motion.scaled_name());
-            assert_eq!(response.stroke_m, checks.stroke_with_fall_m.unwrap_or(0.0), "{}", motion.scaled_name());
+            let (response, alone) = (response.as_ref().unwrap(), Response::of(run));
+            assert_alike(response, &alone, 1e-6, motion);
             // What a history samples is never above the largest, and not far below.
             let sampled = run.history.peak_force_ratio();
             assert!(sampled <= response.force_ratio * (1.0 + 1e-9) && sampled >= 0.9 * response.force_ratio);
         }
         assert_eq!(best.overturned, runs.iter().filter(|run| run.outcome.overturned()).count());
         let forces: Vec<f64> = runs.iter().filter_map(|run| run.peak_force_ratio).collect();
-        assert_eq!(Some(best.peak_force_ratio), quantile(&forces, 1.0));
+        assert!(near(best.peak_force_ratio, quantile(&forces, 1.0).unwrap(), 1e-6));
         let standing = runs.iter().filter(|run| !run.outcome.overturned());
         let stroke = standing.map(|run| run.checks.as_ref().unwrap().stroke_m.unwrap_or(0.0)).fold(0.0, f64::max);
-        assert_eq!(best.stroke_m, Some(stroke));
+        assert!(near(best.stroke_m.unwrap(), stroke, 1e-6));
         assert!(runs.iter().any(|run| run.outcome == Outcome::Safe));
         eprintln!("{}", choice_table(findings).unwrap().markdown());
     });
@@ -371,9 +383,9 @@ fn the_best_device_does_the_same_in_a_scene_of_its_own() {
 }
 
 #[test]
-fn real_devices_do_in_lanes_what_they_do_alone() {
+fn devices_do_in_lanes_what_they_do_alone() {
     let folder = pulses();
-    let text = "scene = 'scene.toml'\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[optimise]\nmass_ratio = { from = 0.1, to = 1.5, cells = 3 }\n";
+    let text = "scene = 'scene.toml'\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[optimise]\nmass_ratio = { from = 0.1, to = 1.5, cells = 3 }\nlaws = ['inerter', 'clutched-pair', 'coasting', 'with capacity']\nmounts = ['centre-of-mass', { mount = 'tying-point', mount_height_m = 1.8 }]\n";
     let scene = "[block]\nsize_m = 1.0\nslenderness_deg = 10.0\nrestitution = 0.85\n\
                  [[device]]\nname = 'coasting'\nkind = 'clutched-pair'\nmass_ratio = 0.5\nengagement = 'rigid'\n\
                  flywheel = { dry_deceleration_m_s2 = 0.05 }\nactuation = { engagement_delay_s = 0.02, release_delay_s = 0.01 }\n\
@@ -393,14 +405,8 @@ fn real_devices_do_in_lanes_what_they_do_alone() {
                 let run = simulate_for_study(&scene, &motion.ground(), &Interrupt::default()).unwrap().remove(0);
                 let (found, alone) = (in_lanes.unwrap(), Response::of(&run));
                 assert_eq!(response, &Ok(found));
-                let what = format!("{}, {mass_ratio}, {}", curve.name(), motion.scaled_name());
-                assert_eq!(found.outcome, alone.outcome, "{what}");
-                let near = |one: f64, other: f64| (one - other).abs() <= 1e-8 * other.abs().max(1e-3);
-                assert!(near(found.force_ratio, alone.force_ratio), "{what}: {} {}", found.force_ratio, alone.force_ratio);
-                assert!(near(found.stroke_m, alone.stroke_m), "{what}: {} {}", found.stroke_m, alone.stroke_m);
+                assert_alike(&found, &alone, 1e-8, motion);
                 safe += usize::from(alone.outcome == Outcome::Safe);
-                let peaks = found.peak_rotation.zip(alone.peak_rotation);
-                assert!(peaks.map_or(found.peak_rotation == alone.peak_rotation, |(one, other)| near(one, other)), "{what}");
             }
         }
         assert!(safe > 20);

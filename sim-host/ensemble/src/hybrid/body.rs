@@ -5,6 +5,7 @@ use sprag_shared::equation::any_body::AnyBody;
 use sprag_shared::equation::body::{Body, FullBody, SlenderBody};
 use sprag_shared::equation::lever::TyingPoint;
 
+use super::Kind;
 use crate::{Number, number};
 
 /// Body of the block in every lane.
@@ -16,7 +17,7 @@ pub(crate) trait LaneBody: Body<Number> {
     fn renew(&mut self, lane: usize, body: &AnyBody<f64>);
 
     /// The same, with what all lanes have in common.
-    fn known(&self, vertical: bool) -> Self;
+    fn known(&self, kind: Kind) -> Self;
 }
 
 impl LaneBody for FullBody<Number> {
@@ -34,8 +35,8 @@ impl LaneBody for FullBody<Number> {
     }
 
     #[inline(always)]
-    fn known(&self, vertical: bool) -> Self {
-        FullBody { consistent: true, vertical, ..*self }
+    fn known(&self, kind: Kind) -> Self {
+        FullBody { consistent: kind.consistent, vertical: kind.vertical, ..*self }
     }
 }
 
@@ -53,7 +54,7 @@ impl LaneBody for SlenderBody<Number> {
     }
 
     #[inline(always)]
-    fn known(&self, vertical: bool) -> Self {
-        SlenderBody { vertical, ..*self }
+    fn known(&self, kind: Kind) -> Self {
+        SlenderBody { vertical: kind.vertical, ..*self }
     }
 }

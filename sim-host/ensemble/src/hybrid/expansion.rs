@@ -13,7 +13,7 @@ use crate::{Number, number};
 pub(super) const LEAST_TERMS: usize = 6;
 
 /// Coefficients of θ at most: as many as reach from one sample to the next.
-pub(super) const TERMS: usize = 9;
+pub(super) const TERMS: usize = 14;
 
 /// Guards that lanes know: the command, and one of the plates of each flywheel.
 pub(super) const LANE_GUARDS: usize = 3;
@@ -26,6 +26,8 @@ const SLOTS: usize = 80;
 
 /// Power series of one step of every block: scratch space, not state.
 pub(super) struct Expansion {
+    /// Coefficients of θ in use; the others are zero.
+    pub(super) terms: usize,
     pub(super) tape: Tape<Number, TERMS, SLOTS>,
     pub(super) motion: MotionSeries<Number, TERMS>,
     /// Guards: the switching function with the sign that it keeps in the mode, and those of the plates of each flywheel.
@@ -36,10 +38,12 @@ pub(super) struct Expansion {
     pub(super) force: [Number; RATES],
 }
 
-impl Default for Expansion {
-    fn default() -> Self {
+impl Expansion {
+    /// With so many coefficients of θ, from [`LEAST_TERMS`] to [`TERMS`].
+    pub(super) fn new(terms: usize) -> Self {
         let none = [number(0.0); RATES];
         Expansion {
+            terms,
             tape: Tape::default(),
             motion: MotionSeries::default(),
             guards: [none; LANE_GUARDS],
@@ -47,18 +51,23 @@ impl Default for Expansion {
             force: none,
         }
     }
-}
 
-impl Expansion {
     /// The series of one lane, whose step has this `length` (s).
-    pub(super) fn of_lane(&self, lane: usize, terms: usize, length: f64) -> LaneSeries {
-        let MotionSeries { rotation, velocity, acceleration } = &self.motion;
-        let of = |series: &[Number; TERMS]| from_fn(|k| series[k].0[lane]);
-        let motion = MotionSeries { rotation: of(rotation), velocity: of(velocity), acceleration: of(acceleration) };
+    pub(super) fn of_lane(&self, lane: usize, length: f64) -> LaneSeries {
+        fn of<const N: usize>(series: &[Number; N], lane: usize, terms: usize) -> [f64; N] {
+            from_fn(|k| if k < terms { series[k].0[lane] } else { 0.0 })
+        }
+        let Expansion { terms, motion: MotionSeries { rotation, velocity, acceleration }, guards, spins, .. } = self;
+        let (terms, rates) = (*terms, terms - 2);
+        let motion = MotionSeries {
+            rotation: of(rotation, lane, terms),
+            velocity: of(velocity, lane, terms - 1),
+            acceleration: of(acceleration, lane, rates),
+        };
         LaneSeries {
             motion: StepSeries { length, terms, motion },
-            guards: self.guards.map(|guard| guard.map(|c| c.0[lane])),
-            spins: self.spins.map(|spin| spin.map(|c| c.0[lane])),
+            guards: from_fn(|i| of(&guards[i], lane, rates)),
+            spins: from_fn(|i| of(&spins[i], lane, terms - 1)),
         }
     }
 }

@@ -7,9 +7,8 @@ use sprag_shared::motion::state::Stopped;
 
 use super::body::LaneBody;
 use super::expansion::Expansion;
-use super::located::LaneSeries;
 use super::seat::Seat;
-use super::stretch::Stretch;
+use super::stretch::{Stepped, Stretch};
 use super::{HybridBlock, HybridMotion, Kind};
 use crate::WIDTH;
 use crate::alone::TIGHT;
@@ -64,11 +63,15 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
         false
     }
 
-    /// The core looks for the event in the step that `lane` has expanded.
+    /// The core looks for the event in the step that `lane` has expanded, or takes one of its own where that series has not `converged`.
     #[inline(never)]
-    fn locate(&mut self, lane: usize, series: &LaneSeries, results: &mut [Option<HybridMotion>]) {
+    fn locate(&mut self, lane: usize, expansion: &Expansion, converged: bool, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
-        if !self.seat(lane, results, |seat, _| seat.locate(series)) {
+        let length = self.stretch.length.0[lane];
+        let step = |seat: &mut Seat<'_>, method: &dyn HybridLoop<f64>| {
+            if converged { seat.locate(&expansion.of_lane(lane, length)) } else { seat.step_by_core(method) }
+        };
+        if !self.seat(lane, results, step) {
             self.refill(lane, results);
         }
     }
@@ -100,18 +103,17 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
 #[inline(always)]
 pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: &mut [Option<HybridMotion>]) {
     let method = hybrid(Method::Adaptive(TIGHT));
-    let mut expansion = Expansion::default();
+    let mut expansion = Expansion::new(kind.terms);
     let mut lanes = Lanes { blocks, method: &*method, stretch: Stretch::<B>::new(kind), seats: from_fn(|_| None), next: 0 };
     for lane in 0..WIDTH {
         lanes.refill(lane, results);
     }
     while lanes.seats.iter().any(Option::is_some) {
-        let plain = lanes.stretch.step(&mut expansion);
+        let Stepped { plain, converged } = lanes.stretch.step(&mut expansion);
         for lane in 0..WIDTH {
             let Some((_, seat)) = &mut lanes.seats[lane] else { continue };
             if !plain.at(lane) {
-                let series = expansion.of_lane(lane, kind.terms, lanes.stretch.length.0[lane]);
-                lanes.locate(lane, &series, results);
+                lanes.locate(lane, &expansion, converged.at(lane), results);
                 continue;
             }
             seat.go_on();

@@ -1,4 +1,5 @@
-//! Blocks with real devices (coasting flywheels, losses, delays, capacity, vertical ground motion) under records, side by side.
+//! Blocks with real devices (coasting flywheels, losses, delays, capacity, vertical ground motion), or any device whose force is asked for, under
+//! records, side by side.
 //!
 //! Between events lanes follow the block's mode by its power series, eight at a time (`hybrid/stretch.rs`). On a step in which something may
 //! happen the series goes to the core (`hybrid/located.rs`): its own loop finds the first event in it, answers it, and hands the block back
@@ -76,19 +77,11 @@ pub struct Steps {
 }
 
 impl HybridBlock<'_> {
-    /// Whether lanes know the equations of `system`: consistent kinematics, no guided rack, a support that moves with the ground, open clutches
-    /// without drag that no controller commands.
+    /// Whether lanes know the equations of `system`: no guided rack, a support that moves with the ground, open clutches without drag that no
+    /// controller commands.
     pub fn knows(system: &HybridSystem<f64>) -> bool {
-        let consistent = match system.body {
-            AnyBody::Slender(_) => true,
-            AnyBody::Full(body) => body.consistent || system.transmission.kind == TransmissionKind::Alone,
-        };
         let parameters = &system.transmission.parameters;
-        consistent
-            && parameters.rack_push == 0.0
-            && !parameters.support_moves()
-            && parameters.drag == 0.0
-            && !system.actuator.controlled
+        parameters.rack_push == 0.0 && !parameters.support_moves() && parameters.drag == 0.0 && !system.actuator.controlled
     }
 
     /// Whether lanes may take it.
@@ -113,6 +106,7 @@ impl HybridBlock<'_> {
     pub(crate) fn kind(&self) -> Kind {
         Kind {
             geometry: self.geometry(),
+            consistent: matches!(self.system.body, AnyBody::Full(body) if body.consistent),
             vertical: self.vertical.is_some(),
             plates: self.system.transmission.kind == TransmissionKind::Friction,
             forces: self.checks.is_some(),
@@ -124,7 +118,7 @@ impl HybridBlock<'_> {
     fn terms(&self) -> usize {
         /// The first term left out, over α, by the block's own rate: so far below rounding that it never shows, however strong the ground and
         /// however the motion magnifies it.
-        const LEFT_OUT: f64 = 1e-21;
+        const LEFT_OUT: f64 = 1e-22;
         let step = self.samples.step * self.system.speed / self.system.slenderness;
         let mut term = 1.0;
         for order in 1..TERMS {
@@ -155,10 +149,12 @@ impl HybridBlock<'_> {
 }
 
 /// What blocks in the lanes have in common.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Kind {
     /// Slender or full.
     pub(crate) geometry: Geometry,
+    /// Consistent kinematics of a full block.
+    pub(crate) consistent: bool,
     /// The ground moves vertically too.
     pub(crate) vertical: bool,
     /// Clutches with plates.

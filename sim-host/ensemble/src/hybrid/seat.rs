@@ -97,6 +97,15 @@ impl<'a> Seat<'a> {
         self.step(&Expanded { series, device: self.motion.state.device })
     }
 
+    /// The core's step by its own series.
+    pub(super) fn step_by_core(&mut self, method: &dyn HybridLoop<f64>) -> Result<(), Stopped> {
+        let rested = self.motion.state.motion.phase == Phase::Rest;
+        self.step(method)?;
+        let rests_on = rested && self.motion.state.motion.phase == Phase::Rest;
+        self.motion.steps.by_core += u32::from(!rests_on);
+        Ok(())
+    }
+
     /// Skips intervals on which the ground cannot lift a block that stands.
     fn stand(&mut self) {
         let HybridBlock { system, samples, factor, vertical, .. } = self.block;
@@ -137,8 +146,7 @@ impl<'a> Seat<'a> {
     /// By the core up to where lanes know the mode, or none where the motion is over.
     pub(super) fn next_mode(&mut self, method: &dyn HybridLoop<f64>) -> Result<Option<ModeCoefficients<f64>>, Stopped> {
         while !self.is_over() {
-            let rests = self.motion.state.motion.phase == Phase::Rest;
-            if rests {
+            if self.motion.state.motion.phase == Phase::Rest {
                 self.stand();
                 if self.is_over() {
                     break;
@@ -148,9 +156,7 @@ impl<'a> Seat<'a> {
             {
                 return Ok(Some(law));
             }
-            self.step(method)?;
-            let rests_on = rests && self.motion.state.motion.phase == Phase::Rest;
-            self.motion.steps.by_core += u32::from(!rests_on);
+            self.step_by_core(method)?;
         }
         Ok(None)
     }

@@ -19,10 +19,10 @@ use super::{HybridMotion, Kind};
 use crate::polynomial::{largest_in_lane, value};
 use crate::{Mask, Number, WIDTH, number};
 
-/// Largest of the last terms of θ and of the one before, over α: from one to the next they fall by p times the step, or more, so that the
-/// first one left out is below rounding.
-const LAST: f64 = 3e-13;
-const LAST_BUT_ONE: f64 = 3e-11;
+/// Largest of the last terms of θ and of the one before, over α. The first one that θ̇ leaves out, over pα, is as large as the last one of θ:
+/// both are below rounding.
+const LAST: f64 = 1e-15;
+const LAST_BUT_ONE: f64 = 1e-13;
 
 /// The plates of both flywheels.
 #[derive(Debug)]
@@ -37,6 +37,15 @@ struct Plates {
     spin: [Number; 2],
     /// The way it turns.
     turning: [Number; 2],
+}
+
+/// Blocks after a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stepped {
+    /// Those that are at their next samples.
+    pub(super) plain: Mask,
+    /// Those whose series hold up to there.
+    pub(super) converged: Mask,
 }
 
 /// Blocks in their modes, one in each lane; SI units.
@@ -173,10 +182,9 @@ impl<B: LaneBody> Stretch<B> {
         self.overturned.0[lane] = seat.overturned();
     }
 
-    /// Follows every block to its next sample. Those on which an event may lie before that are left where they are: they are not in the
-    /// answer.
+    /// Follows every block to its next sample. Those on which an event may lie before that are left where they are.
     #[inline(always)]
-    pub(super) fn step(&mut self, expansion: &mut Expansion) -> Mask {
+    pub(super) fn step(&mut self, expansion: &mut Expansion) -> Stepped {
         let nothing = number(0.0);
         self.expand(expansion);
         let Expansion { motion: series, guards, spins, force, .. } = &*expansion;
@@ -184,12 +192,14 @@ impl<B: LaneBody> Stretch<B> {
         let half_square = number(0.125) * (time * time);
 
         // Bounds of the second derivatives of θ̈ and θ̇ over the step.
-        let rates = &series.acceleration[..RATES];
+        let terms = self.kind.terms;
+        let in_use = terms - 2;
+        let rates = &series.acceleration[..in_use];
         let bend = bend_of(rates, time);
         let rate_slope = rates[1].abs();
         let swing = rate_slope + bend * time;
 
-        let end = (value(&series.rotation, time), value(&series.velocity[..TERMS - 1], time), value(rates, time));
+        let end = (value(&series.rotation[..terms], time), value(&series.velocity[..terms - 1], time), value(rates, time));
         let direction = self.law.direction;
         let slowest = (self.velocity * direction).smaller(end.1 * direction);
         let goes_on = slowest.exceeds(half_square * swing);
@@ -198,10 +208,9 @@ impl<B: LaneBody> Stretch<B> {
         let stays = !(outward & (end.0 * self.side).exceeds(self.overturned));
         let in_time = self.due.exceeds(time);
         let watched = self.watched.abs().exceeds(nothing);
-        // Over so short a step what is beyond the third derivative is small against it.
         let holds = |guard: &[Number; RATES]| {
-            let margin = time * time * (guard[2].abs() + guard[3].abs() * time);
-            guard[0].smaller(value(guard, time)).exceeds(margin)
+            let guard = &guard[..in_use];
+            guard[0].smaller(value(guard, time)).exceeds(half_square * bend_of(guard, time))
         };
         let mut guarded = holds(&guards[0]) | !watched;
         let mut spin_ends = [nothing; 2];
@@ -210,19 +219,22 @@ impl<B: LaneBody> Stretch<B> {
             for (i, end) in spin_ends.iter_mut().enumerate() {
                 let slips = slip[i].abs().exceeds(nothing);
                 guarded = guarded & (holds(&guards[i + 1]) | !(stick[i] | slips));
-                *end = value(&spins[i], time);
-                let slowest = (spins[i][0] * turning[i]).smaller(*end * turning[i]);
-                guarded = guarded & (slowest.exceeds(half_square * bend_of(&spins[i], time)) | !slips);
+                let spin = &spins[i][..terms - 1];
+                *end = value(spin, time);
+                let slowest = (spin[0] * turning[i]).smaller(*end * turning[i]);
+                guarded = guarded & (slowest.exceeds(half_square * bend_of(spin, time)) | !slips);
             }
         }
         // A larger force than ever is for the core's observer.
         let pressed = if self.kind.forces {
+            let force = &force[..in_use];
             let ends = force[0].abs().larger(value(force, time).abs());
             (ends + half_square * bend_of(force, time)).exceeds(self.largest_force)
         } else {
             Mask::NONE
         };
-        let clean = !pressed & self.converges(series, time) & goes_on & tilted & stays & in_time & guarded;
+        let converged = self.converges(series, time);
+        let clean = !pressed & converged & goes_on & tilted & stays & in_time & guarded;
 
         let sag = half_square * bend;
         let ends = rates[0].abs().larger(end.2.abs());
@@ -244,7 +256,7 @@ impl<B: LaneBody> Stretch<B> {
         }
         self.elapsed = clean.choose(self.elapsed + time, self.elapsed);
         self.due = clean.choose(self.due - time, self.due);
-        clean
+        Stepped { plain: clean, converged }
     }
 
     /// The series of the motion and of the guard.
@@ -253,9 +265,9 @@ impl<B: LaneBody> Stretch<B> {
         // θ, θ̇, the ground twice, the clock and two flywheels.
         const GIVEN: usize = 7;
         let zero = number(0.0);
-        let Expansion { tape, motion: series, guards, spins, force } = expansion;
+        let Expansion { tape, motion: series, guards, spins, force, .. } = expansion;
         let tape = &*tape;
-        let body = self.body.known(self.kind.vertical);
+        let body = self.body.known(self.kind);
         let next = Cell::new(GIVEN);
         series.start(tape, self.rotation, self.velocity);
         for (i, spin) in spins.iter_mut().enumerate() {
