@@ -63,13 +63,17 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
         false
     }
 
-    /// The core looks for the event in the step that `lane` has expanded, or takes one of its own where that series has not `converged`.
+    /// The core looks for the event in the step that `lane` has expanded, or takes one of its own where that series has not converged.
     #[inline(never)]
-    fn locate(&mut self, lane: usize, expansion: &Expansion, converged: bool, results: &mut [Option<HybridMotion>]) {
+    fn locate(&mut self, lane: usize, expansion: &Expansion, stepped: &Stepped, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
         let length = self.stretch.length.0[lane];
         let step = |seat: &mut Seat<'_>, method: &dyn HybridLoop<f64>| {
-            if converged { seat.locate(&expansion.of_lane(lane, length)) } else { seat.step_by_core(method) }
+            if stepped.converged.at(lane) {
+                seat.locate(&expansion.of_lane(lane, length), stepped.pressed.at(lane))
+            } else {
+                seat.step_by_core(method)
+            }
         };
         if !self.seat(lane, results, step) {
             self.refill(lane, results);
@@ -109,11 +113,11 @@ pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: 
         lanes.refill(lane, results);
     }
     while lanes.seats.iter().any(Option::is_some) {
-        let Stepped { plain, converged } = lanes.stretch.step(&mut expansion);
+        let stepped = lanes.stretch.step(&mut expansion);
         for lane in 0..WIDTH {
             let Some((_, seat)) = &mut lanes.seats[lane] else { continue };
-            if !plain.at(lane) {
-                lanes.locate(lane, &expansion, converged.at(lane), results);
+            if !stepped.plain.at(lane) {
+                lanes.locate(lane, &expansion, &stepped, results);
                 continue;
             }
             seat.go_on();

@@ -28,7 +28,7 @@ pub(super) struct LaneOutput<'a> {
     length: f64,
     parameters: &'a ScaledParameters<f64>,
     /// At the start.
-    device: DeviceState<f64>,
+    device: &'a DeviceState<f64>,
 }
 
 /// The integrator that has taken this step already.
@@ -48,7 +48,7 @@ impl ModeIntegrator<f64> for Expanded<'_> {
             series: self.series,
             length: start.length,
             parameters: &start.system.transmission.parameters,
-            device: self.device,
+            device: &self.device,
         }
     }
 
@@ -79,14 +79,14 @@ fn zero(coefficients: &[f64], to: f64, sign: Sign, from_zero: bool) -> Option<f6
 impl ModeOutput<f64> for LaneOutput<'_> {
     /// Flywheels coast that are neither locked nor driven by slipping plates.
     fn unknowns(&self, time: f64) -> [f64; UNKNOWNS] {
-        let mut device = self.device;
-        for (wheel, spin) in device.wheels.iter_mut().zip(&self.series.spins) {
-            match wheel.coupling {
-                Coupling::Slipping(_) => wheel.spin = value(spin, time),
-                _ => self.parameters.coast(wheel, time),
-            }
+        let mut unknowns = self.device.unknowns();
+        for (i, wheel) in self.device.wheels.iter().enumerate() {
+            unknowns[i] = match wheel.coupling {
+                Coupling::Slipping(_) => value(&self.series.spins[i], time),
+                _ => self.parameters.spin_after(wheel, time),
+            };
         }
-        device.unknowns()
+        unknowns
     }
 
     fn guard(&self, index: usize, time: f64) -> f64 {

@@ -73,14 +73,15 @@ impl<'a> Seat<'a> {
         self.progress = Progress::default();
     }
 
-    /// One step of the core's loop: by its own series, or by that which a lane has expanded.
-    fn step(&mut self, method: &dyn HybridLoop<f64>) -> Result<(), Stopped> {
+    /// One step of the core's loop: by its own series, or by that which a lane has expanded. Without `pressed` no force is larger than ever.
+    fn step(&mut self, method: &dyn HybridLoop<f64>, pressed: bool) -> Result<(), Stopped> {
         let [level, up] = self.lines();
         let vertical = self.block.vertical.map(|_| &up as &dyn GroundSegment<f64>);
         let shaking = Shaking { horizontal: &level, vertical, support: None };
         let limits = Limits { overturned: self.overturned(), events: MOST_EVENTS };
         let step = self.block.samples.step;
         let (state, mut watch) = self.motion.watched(step * self.sample as f64);
+        watch.checks = watch.checks.filter(|_| pressed);
         if self.progress.time == 0.0 {
             self.block.system.ground_at_start(state, shaking.at(0.0), &mut watch);
         }
@@ -91,16 +92,16 @@ impl<'a> Seat<'a> {
         Ok(())
     }
 
-    /// The core's step on which something may happen in the `series` of a lane.
-    pub(super) fn locate(&mut self, series: &LaneSeries) -> Result<(), Stopped> {
+    /// The core's step on which something may happen in the `series` of a lane; `pressed` where that may be a force larger than ever.
+    pub(super) fn locate(&mut self, series: &LaneSeries, pressed: bool) -> Result<(), Stopped> {
         self.motion.steps.located += 1;
-        self.step(&Expanded { series, device: self.motion.state.device })
+        self.step(&Expanded { series, device: self.motion.state.device }, pressed)
     }
 
     /// The core's step by its own series.
     pub(super) fn step_by_core(&mut self, method: &dyn HybridLoop<f64>) -> Result<(), Stopped> {
         let rested = self.motion.state.motion.phase == Phase::Rest;
-        self.step(method)?;
+        self.step(method, true)?;
         let rests_on = rested && self.motion.state.motion.phase == Phase::Rest;
         self.motion.steps.by_core += u32::from(!rests_on);
         Ok(())

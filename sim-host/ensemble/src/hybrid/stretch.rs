@@ -46,6 +46,8 @@ pub(super) struct Stepped {
     pub(super) plain: Mask,
     /// Those whose series hold up to there.
     pub(super) converged: Mask,
+    /// Those of which the force on the support may be larger than ever.
+    pub(super) pressed: Mask,
 }
 
 /// Blocks in their modes, one in each lane; SI units.
@@ -256,7 +258,7 @@ impl<B: LaneBody> Stretch<B> {
         }
         self.elapsed = clean.choose(self.elapsed + time, self.elapsed);
         self.due = clean.choose(self.due - time, self.due);
-        Stepped { plain: clean, converged }
+        Stepped { plain: clean, converged, pressed }
     }
 
     /// The series of the motion and of the guard.
