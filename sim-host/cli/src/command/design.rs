@@ -10,6 +10,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::Scene;
+use sprag_studies::cloud::folder::Named;
 use sprag_studies::design::basis::{Basis, TEETH};
 use sprag_studies::design::figure::delay_picture;
 use sprag_studies::design::page::{page, verdict};
@@ -38,8 +39,8 @@ pub struct DesignArguments {
     /// The scene; it has block.mass_kg.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Ground motion records, each in the place of the scene's.
-    #[arg(long, value_name = "FILE", num_args = 1..)]
+    /// Ground motion records and folders of them, each record in the place of the scene's.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
     /// How records are read.
     #[command(flatten)]
@@ -124,8 +125,10 @@ impl Run for DesignArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let mut folder = self.output.folder_at(&self.scene.scene, "design", &self.accuracy)?;
         let mut warnings = context.warned(self.scene.load(None)?.warnings());
+        let named = Named::of(&self.records);
+        warnings.extend(context.warned(named.passed_over.clone()));
         let interrupt = context.interrupt;
-        let designed = self.accuracy.run(context, |change| designed(self, change, &mut folder, interrupt))?;
+        let designed = self.accuracy.run(context, |change| designed(self, &named, change, &mut folder, interrupt))?;
         designed.read.errors.iter().for_each(|error| context.note(error));
         let records = designed.read.records();
         warnings.extend(context.warned(warning_lines(&records)));
@@ -146,6 +149,7 @@ struct Designed {
 /// The design for the scene with `change`.
 fn designed(
     arguments: &DesignArguments,
+    named: &Named,
     change: Option<String>,
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
@@ -155,10 +159,10 @@ fn designed(
     Problem::new(&scene, &arguments.device, arguments.basis.basis(&scene))?;
     arguments.reading.apply(&mut scene)?;
     let files = |file: &PathBuf| RecordFiles { horizontal: file.clone(), vertical: None };
-    let records: Vec<RecordFiles> = arguments.records.iter().map(files).collect();
-    let read = ReadMotions::of(&scene, &records)?;
+    let records: Vec<RecordFiles> = named.files.iter().map(files).collect();
+    let read = ReadMotions::of(&scene, &records, &named.unreadable)?;
     let names = ["design", "parts", "motions", "delays", "delay"];
-    let claim = claim_of_scene("design", &arguments.scene.scene, &scene, &scene.file, &names, &arguments.records)?;
+    let claim = claim_of_scene("design", &arguments.scene.scene, &scene, &scene.file, &names, &named.files)?;
     let subject = claim.subject.with("basis", &arguments.basis.basis(&scene))?.with("device", &arguments.device)?;
     let claim = Claim { subject, ..claim };
     // Where the results go is tried before the work, not after it.

@@ -7,6 +7,7 @@ use serde::Serialize;
 use sprag_report::output::{Claim, SCHEMA_VERSION, Subject, VERSION};
 use sprag_report::progress::Progress;
 use sprag_sim::record::{RecordSummary, warning_lines};
+use sprag_studies::cloud::folder::Named;
 use sprag_studies::loop_study::bench::{Conditions, records_of};
 use sprag_studies::loop_study::bound::bound;
 use sprag_studies::loop_study::decisions::decisions;
@@ -57,8 +58,8 @@ pub struct LoopStudyArguments {
     /// Study to make.
     #[arg(value_enum)]
     pub study: Study,
-    /// Recorded ground motions to study beside the pulses.
-    #[arg(long, value_name = "FILE", num_args = 1..)]
+    /// Recorded ground motions, and folders of them, to study beside the pulses.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
     /// How records are read.
     #[command(flatten)]
@@ -92,16 +93,20 @@ impl Run for LoopStudyArguments {
             anyhow::bail!("--records: the study {name} takes no records");
         }
         let mut folder = self.output.folder_at(Path::new(&name), "loop-study", &self.accuracy)?;
-        let files: Vec<(PathBuf, PathBuf)> = self.records.iter().map(|file| (file.clone(), file.clone())).collect();
+        let named = Named::of(&self.records);
+        if let Some(unreadable) = named.unreadable.first() {
+            anyhow::bail!("{unreadable}");
+        }
+        let files: Vec<(PathBuf, PathBuf)> = named.files.iter().map(|file| (file.clone(), file.clone())).collect();
         let accuracy = self.accuracy.accuracy.map(|accuracy| accuracy.to_string());
         let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;
         let record = |file: &PathBuf| Motion::Record { file: file.clone(), reading: self.reading.table(), scale: 1.0 };
-        let records: Vec<Motion> = self.records.iter().map(record).collect();
+        let records: Vec<Motion> = named.files.iter().map(record).collect();
         // Before hours of work, not after them.
         let read = records_of(&records)?;
-        let (page, inputs) = (format!("{name}.run.json"), self.records.iter().map(|file| file_of(file)).collect());
+        let (page, inputs) = (format!("{name}.run.json"), named.files.iter().map(|file| file_of(file)).collect());
         folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
-        let warnings = context.warned(warning_lines(&read));
+        let warnings = context.warned([named.passed_over, warning_lines(&read)].concat());
         let (pool, interrupt) = (self.threads.pool()?, context.interrupt);
         let progress = Progress::new("runs");
         let found = self.accuracy.levels(context, |accuracy| {

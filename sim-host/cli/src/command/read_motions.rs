@@ -16,12 +16,12 @@ pub struct ReadMotions {
 }
 
 impl ReadMotions {
-    /// The own motion of `scene`, and each of `records` in its place.
+    /// The own motion of `scene`, and each of `records` in its place; what else was `unreadable` is among the errors.
     ///
     /// # Errors
     /// A scene that has no record to replace, or none of its own without any of `records`, one whose `[[vertical]]` does not belong to them, and
     /// where nothing could be read.
-    pub fn of(scene: &Scene, records: &[RecordFiles]) -> anyhow::Result<ReadMotions> {
+    pub fn of(scene: &Scene, records: &[RecordFiles], unreadable: &[String]) -> anyhow::Result<ReadMotions> {
         if !records.is_empty() {
             StudyMotion::may_be_replaced(scene)?;
         }
@@ -30,7 +30,7 @@ impl ReadMotions {
         }
         require_files(scene, records)?;
         let reading = Progress::uncounted("reading records");
-        let mut read = ReadMotions { motions: StudyMotion::own(scene)?.into_iter().collect(), errors: Vec::new() };
+        let mut read = ReadMotions { motions: StudyMotion::own(scene)?.into_iter().collect(), errors: unreadable.to_vec() };
         for record in records {
             match StudyMotion::record(scene, record) {
                 Ok(motion) => read.motions.push(motion),

@@ -12,6 +12,7 @@ use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::Scene;
+use sprag_studies::cloud::folder::Named;
 use sprag_studies::sensitivity::motion::RecordFiles;
 use sprag_studies::sensitivity::report::{comparison_table, page, table};
 use sprag_studies::sensitivity::statistics::{Summary, summaries};
@@ -37,12 +38,12 @@ pub struct SensitivityArguments {
     /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Ground motion records, each in the place of the scene's.
-    #[arg(long, value_name = "FILE", num_args = 1..)]
+    /// Ground motion records and folders of them, each record in the place of the scene's.
+    #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
     /// Vertical components of the records, as many and in the same order; without them the ground moves vertically by 2/3 of its
     /// horizontal motion.
-    #[arg(long, value_name = "FILE", num_args = 1..)]
+    #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records_vertical: Vec<PathBuf>,
     /// How records are read.
     #[command(flatten)]
@@ -71,8 +72,10 @@ impl Run for SensitivityArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let mut folder = self.output.folder_at(&self.scene.scene, "sensitivity", &self.accuracy)?;
         let mut warnings = context.warned(self.scene.load(None)?.warnings());
+        let named = [&self.records, &self.records_vertical].map(|paths| Named::of(paths));
+        named.iter().for_each(|named| warnings.extend(context.warned(named.passed_over.clone())));
         let interrupt = context.interrupt;
-        let studied = self.accuracy.run(context, |change| studied(self, change, &mut folder, interrupt))?;
+        let studied = self.accuracy.run(context, |change| studied(self, &named, change, &mut folder, interrupt))?;
         studied.read.errors.iter().for_each(|error| context.note(error));
         let records = studied.read.records();
         warnings.extend(context.warned(warning_lines(&records)));
@@ -94,15 +97,17 @@ struct Studied {
 /// The study of the scene with `change`.
 fn studied(
     arguments: &SensitivityArguments,
+    named: &[Named; 2],
     change: Option<String>,
     folder: &mut ResultFolder,
     interrupt: &Interrupt,
 ) -> anyhow::Result<Studied> {
     let (mut scene, study) = Study::load(&arguments.scene.scene, &arguments.scene.changes(change))?;
     arguments.reading.apply(&mut scene)?;
-    let records = records(arguments)?;
-    let read = ReadMotions::of(&scene, &records)?;
-    let others = [&arguments.records[..], &arguments.records_vertical].concat();
+    let [horizontal, vertical] = named;
+    let unreadable = [&horizontal.unreadable[..], &vertical.unreadable].concat();
+    let read = ReadMotions::of(&scene, &pairs(arguments, &horizontal.files, &vertical.files)?, &unreadable)?;
+    let others = [&horizontal.files[..], &vertical.files].concat();
     let claim = claim_of_scene("sensitivity", &arguments.scene.scene, &scene, &scene.file, &["sensitivity"], &others)?;
     // Where the results go is tried before the work, not after it.
     folder.open(&claim)?;
@@ -115,9 +120,8 @@ fn studied(
 }
 
 /// The records, each with its vertical component.
-fn records(arguments: &SensitivityArguments) -> anyhow::Result<Vec<RecordFiles>> {
-    let (horizontal, vertical) = (&arguments.records, &arguments.records_vertical);
-    if !vertical.is_empty() && vertical.len() != horizontal.len() {
+fn pairs(arguments: &SensitivityArguments, horizontal: &[PathBuf], vertical: &[PathBuf]) -> anyhow::Result<Vec<RecordFiles>> {
+    if !arguments.records_vertical.is_empty() && vertical.len() != horizontal.len() {
         let (vertical, horizontal) = (vertical.len(), horizontal.len());
         anyhow::bail!("--records-vertical names {vertical} files, but --records {horizontal}; each record needs its own");
     }

@@ -134,6 +134,8 @@ fn bad_input_of_sensitivity_costs_one_line() {
     line(&scene("figure05"), &["--records", "x.AT2"], &["motion = \"record\""]);
     line(&scene("record"), &[], &["--record"]);
     line(&near_fault, &["--records", "x.AT2", "y.AT2", "--records-vertical", "z.AT2"], &["1 files", "2"]);
+    let empty = folder.path().to_str().unwrap();
+    line(&near_fault, &["--records", "x.AT2", "--records-vertical", empty], &["0 files", "1"]);
 }
 
 #[test]

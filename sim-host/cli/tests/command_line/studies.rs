@@ -64,6 +64,34 @@ fn sensitivity_does_not_depend_on_the_number_of_threads_and_names_a_bad_record()
 }
 
 #[test]
+fn a_folder_of_records_is_the_files_in_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (scene, [weak, bad, strong]) = inputs(folder.path());
+    let [all, none] = ["all", "none"].map(|name| folder.path().join(name));
+    fs::create_dir_all(all.join("deeper")).unwrap();
+    fs::create_dir(&none).unwrap();
+    let files = [(strong, "a.csv"), (bad, "b.csv"), (weak, "deeper/c.csv")].map(|(from, to)| {
+        fs::copy(from, all.join(to)).unwrap();
+        all.join(to).to_str().unwrap().to_owned()
+    });
+    let [all, none] = [all, none].map(|path| path.to_str().unwrap().to_owned());
+    let pair = ["--set", "block.mass_kg=8000", "--set", "device.0.kind=clutched-pair"];
+    for (line, table) in [(["sensitivity", &scene], "sensitivity.csv"), (["design", &scene], "motions.csv")] {
+        let run = |records: &[&str], out: &str| {
+            let out = folder.path().join(out);
+            let output =
+                sprag(&[&line[..], &pair, &["--records"], records, &["--overwrite", "--out", out.to_str().unwrap()]].concat());
+            assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+            (fs::read(out.join(table)).unwrap(), said(&output))
+        };
+        let (by_name, _) = run(&files.each_ref().map(String::as_str), "by_name");
+        let (by_folder, said) = run(&[&all, &none], "by_folder");
+        assert!(by_name == by_folder, "{line:?}");
+        assert!(said.contains("b.csv: ") && said.contains("none: no file in it ends in "), "{said}");
+    }
+}
+
+#[test]
 fn design_does_not_depend_on_the_number_of_threads_and_names_a_bad_record() {
     let folder = tempfile::tempdir().unwrap();
     let (scene, [weak, bad, strong]) = inputs(folder.path());

@@ -17,7 +17,7 @@ const MOST_NAMES: usize = 3;
 pub struct Found {
     /// Files that may be records, by path.
     pub files: Vec<PathBuf>,
-    /// Folders that cannot be searched, in a line each.
+    /// Folders without such files, or that cannot be searched, in a line each.
     pub unreadable: Vec<String>,
     /// What may be meant as a record and is none: its path and why.
     pub passed_over: Vec<(PathBuf, &'static str)>,
@@ -47,9 +47,41 @@ pub fn shown(path: &Path) -> String {
 pub fn search(folder: &Path) -> Found {
     let mut found = Found::default();
     search_below(folder, DEEPEST, &mut found);
+    if found.files.is_empty() && found.unreadable.is_empty() {
+        found.unreadable.push(format!("{}: no file in it ends in {}", folder.display(), ENDINGS.join(", ")));
+    }
     found.files.sort();
     found.passed_over.sort();
     found
+}
+
+/// Record files named on a command line.
+#[derive(Debug, Default)]
+pub struct Named {
+    /// The files, those of a folder by path in its place.
+    pub files: Vec<PathBuf>,
+    /// What of folders was passed over, in a line each.
+    pub passed_over: Vec<String>,
+    /// Folders without records, or that cannot be searched, in a line each.
+    pub unreadable: Vec<String>,
+}
+
+impl Named {
+    /// The files among `paths`, and those of the folders among them.
+    pub fn of(paths: &[PathBuf]) -> Named {
+        let mut named = Named::default();
+        for path in paths {
+            if !path.is_dir() {
+                named.files.push(path.clone());
+                continue;
+            }
+            let found = search(path);
+            named.passed_over.extend(found.passed_over_line(path));
+            named.files.extend(found.files);
+            named.unreadable.extend(found.unreadable);
+        }
+        named
+    }
 }
 
 fn search_below(folder: &Path, deepest: usize, found: &mut Found) {

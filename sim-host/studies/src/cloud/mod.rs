@@ -9,7 +9,7 @@ pub mod comparison;
 pub mod demand;
 pub mod figures;
 pub mod findings;
-mod folder;
+pub mod folder;
 pub mod measure;
 pub mod overturning;
 pub mod pages;

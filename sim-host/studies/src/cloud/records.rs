@@ -145,9 +145,6 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
         }
         let inside = folder::search(&path);
         found.passed_over.extend(inside.passed_over_line(&path));
-        if inside.files.is_empty() && inside.unreadable.is_empty() {
-            found.unreadable.push(format!("{}: no file in it ends in {}", path.display(), folder::ENDINGS.join(", ")));
-        }
         found.unreadable.extend(inside.unreadable);
         for file in inside.files {
             let name = folder::shown(file.strip_prefix(&path).unwrap_or(&file));
