@@ -20,7 +20,7 @@ use crate::polynomial::{largest_in_lane, value};
 use crate::{Mask, Number, WIDTH, number};
 
 /// Largest of the last terms of θ and of the one before, over α. The first one that θ̇ leaves out, over pα, is as large as the last one of θ:
-/// both are below rounding.
+/// no more than some rounding.
 const LAST: f64 = 1e-15;
 const LAST_BUT_ONE: f64 = 1e-13;
 
