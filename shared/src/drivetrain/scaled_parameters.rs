@@ -238,17 +238,6 @@ impl<S: Real> ScaledParameters<S> {
         self.bearing_rate + self.dashpot(wheel) * self.mobility
     }
 
-    /// The speed of a flywheel after `time` (s) while the rack stands ([`ScaledParameters::coast`]), 1/s.
-    #[inline]
-    pub fn spin_after(&self, wheel: &FlywheelState<S>, time: S) -> S {
-        if wheel.coupling == Coupling::Locked || wheel.spin == S::ZERO {
-            return wheel.spin;
-        }
-        let mut wheel = *wheel;
-        self.coast(&mut wheel, time);
-        wheel.spin
-    }
-
     /// What a flywheel has left of its speed after `time` (s) while the rack stands: ẇ = −c w − d sgn w in closed form, never past
     /// zero.
     #[inline(never)]

@@ -3,7 +3,7 @@
 use super::mount::Mount;
 
 /// Kind of the device that a block carries.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
     /// No device.
     #[default]

@@ -176,43 +176,43 @@ fn groups(pulsed: &[PulsedBlock]) -> impl Iterator<Item = &[PulsedBlock]> {
     pulsed.chunk_by(|a, b| kind(a) == kind(b))
 }
 
-/// Final state of each of `shaken`, in their order; `None` for those that the core takes.
-pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
-    let mut results = vec![None; shaken.len()];
-    let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);
-    let mut start = 0;
-    for group in shaken.chunk_by(|a, b| kind(a) == kind(b)) {
-        let found = &mut results[start..start + group.len()];
-        resolve(kind(&group[0]), registers, UnderRecords { shaken: group, results: found });
-        start += group.len();
+/// What `work` makes of each of `blocks`, in their order; it is given those of one kind together, wherever they stand.
+fn by_kind<B: Copy, K: Ord, T: Clone>(
+    blocks: &[B],
+    kind: impl Fn(&B) -> K,
+    mut work: impl FnMut(K, &[B], &mut [Option<T>]),
+) -> Vec<Option<T>> {
+    let mut order: Vec<(K, usize)> = blocks.iter().map(kind).zip(0..).collect();
+    order.sort_unstable();
+    let mut results = vec![None; blocks.len()];
+    let mut order = order.into_iter().peekable();
+    while let Some((kind, first)) = order.next() {
+        let mut places = vec![first];
+        while let Some((_, place)) = order.next_if(|(next, _)| *next == kind) {
+            places.push(place);
+        }
+        let group: Vec<B> = places.iter().map(|&place| blocks[place]).collect();
+        let mut found = vec![None; group.len()];
+        work(kind, &group, &mut found);
+        for (place, found) in places.into_iter().zip(found) {
+            results[place] = found;
+        }
     }
     results
 }
 
-/// Motion of each of `blocks` up to the end of its record, in their order; `None` for those that the core takes. Those of one kind go through the
-/// lanes together, wherever they stand.
+/// Final state of each of `shaken`, in their order; `None` for those that the core takes.
+pub fn shake(shaken: &[ShakenBlock<'_>], registers: Registers) -> Vec<Option<Shaken>> {
+    let kind = |block: &ShakenBlock<'_>| (block.plain.geometry, block.plain.device);
+    by_kind(shaken, kind, |kind, shaken, results| resolve(kind, registers, UnderRecords { shaken, results }))
+}
+
+/// Motion of each of `blocks` up to the end of its record, in their order; `None` for those that the core takes.
 pub fn shake_hybrid(blocks: &[HybridBlock<'_>], registers: Registers) -> Vec<Option<HybridMotion>> {
-    let mut order: Vec<(Kind, usize)> = blocks.iter().map(HybridBlock::kind).zip(0..).collect();
-    order.sort_unstable();
-    let sorted: Vec<HybridBlock<'_>> = order.iter().map(|&(_, index)| blocks[index]).collect();
-    let mut found = vec![None; blocks.len()];
-    let mut start = 0;
-    for group in order.chunk_by(|a, b| a.0 == b.0) {
-        let (kind, all) = (group[0].0, start..start + group.len());
-        let (blocks, results) = (&sorted[all.clone()], &mut found[all.clone()]);
-        match kind.geometry {
-            Geometry::Full => {
-                built_for(registers, OnHybridBlocks::<FullBody<Number>> { blocks, results, kind, body: PhantomData });
-            }
-            Geometry::Slender => {
-                built_for(registers, OnHybridBlocks::<SlenderBody<Number>> { blocks, results, kind, body: PhantomData });
-            }
+    by_kind(blocks, HybridBlock::kind, |kind, blocks, results| match kind.geometry {
+        Geometry::Full => built_for(registers, OnHybridBlocks::<FullBody<Number>> { blocks, results, kind, body: PhantomData }),
+        Geometry::Slender => {
+            built_for(registers, OnHybridBlocks::<SlenderBody<Number>> { blocks, results, kind, body: PhantomData });
         }
-        start = all.end;
-    }
-    let mut results = vec![None; blocks.len()];
-    for ((_, index), motion) in order.into_iter().zip(found) {
-        results[index] = motion;
-    }
-    results
+    })
 }

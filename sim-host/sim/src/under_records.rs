@@ -110,8 +110,6 @@ pub fn followed(runs: &[(&Subject, Shaking<'_>)]) -> Vec<Option<Followed>> {
         }
     }
     let mut found = vec![None; runs.len()];
-    // Neighbours of one kind go through the lanes together.
-    ideal.sort_by_key(|(_, block)| (block.plain.geometry as u8, block.plain.device as u8));
     let blocks: Vec<ShakenBlock<'_>> = ideal.iter().map(|(_, block)| *block).collect();
     for ((index, block), shaken) in ideal.iter().zip(shake(&blocks, Registers::Widest)) {
         let scene = &runs[*index].0.scene;

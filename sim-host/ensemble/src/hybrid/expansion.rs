@@ -26,8 +26,6 @@ const SLOTS: usize = 80;
 
 /// Power series of one step of every block: scratch space, not state.
 pub(super) struct Expansion {
-    /// Coefficients of θ in use; the others are zero.
-    pub(super) terms: usize,
     pub(super) tape: Tape<Number, TERMS, SLOTS>,
     pub(super) motion: MotionSeries<Number, TERMS>,
     /// Guards: the switching function with the sign that it keeps in the mode, and those of the plates of each flywheel.
@@ -38,12 +36,10 @@ pub(super) struct Expansion {
     pub(super) force: [Number; RATES],
 }
 
-impl Expansion {
-    /// With so many coefficients of θ, from [`LEAST_TERMS`] to [`TERMS`].
-    pub(super) fn new(terms: usize) -> Self {
+impl Default for Expansion {
+    fn default() -> Self {
         let none = [number(0.0); RATES];
         Expansion {
-            terms,
             tape: Tape::default(),
             motion: MotionSeries::default(),
             guards: [none; LANE_GUARDS],
@@ -51,14 +47,16 @@ impl Expansion {
             force: none,
         }
     }
+}
 
-    /// The series of one lane, whose step has this `length` (s).
-    pub(super) fn of_lane(&self, lane: usize, length: f64) -> LaneSeries {
+impl Expansion {
+    /// The series of one lane, whose step has this `length` (s), with so many coefficients of θ (`terms`); the others are zero.
+    pub(super) fn of_lane(&self, lane: usize, terms: usize, length: f64) -> LaneSeries {
         fn of<const N: usize>(series: &[Number; N], lane: usize, terms: usize) -> [f64; N] {
             from_fn(|k| if k < terms { series[k].0[lane] } else { 0.0 })
         }
-        let Expansion { terms, motion: MotionSeries { rotation, velocity, acceleration }, guards, spins, .. } = self;
-        let (terms, rates) = (*terms, terms - 2);
+        let Expansion { motion: MotionSeries { rotation, velocity, acceleration }, guards, spins, .. } = self;
+        let rates = terms - 2;
         let motion = MotionSeries {
             rotation: of(rotation, lane, terms),
             velocity: of(velocity, lane, terms - 1),

@@ -67,10 +67,10 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
     #[inline(never)]
     fn locate(&mut self, lane: usize, expansion: &Expansion, stepped: &Stepped, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
-        let length = self.stretch.length.0[lane];
+        let (terms, length) = (self.stretch.kind.terms, self.stretch.length.0[lane]);
         let step = |seat: &mut Seat<'_>, method: &dyn HybridLoop<f64>| {
             if stepped.converged.at(lane) {
-                seat.locate(&expansion.of_lane(lane, length), stepped.pressed.at(lane))
+                seat.locate(&expansion.of_lane(lane, terms, length), stepped.pressed.at(lane))
             } else {
                 seat.step_by_core(method)
             }
@@ -107,7 +107,7 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
 #[inline(always)]
 pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: &mut [Option<HybridMotion>]) {
     let method = hybrid(Method::Adaptive(TIGHT));
-    let mut expansion = Expansion::new(kind.terms);
+    let mut expansion = Expansion::default();
     let mut lanes = Lanes { blocks, method: &*method, stretch: Stretch::<B>::new(kind), seats: from_fn(|_| None), next: 0 };
     for lane in 0..WIDTH {
         lanes.refill(lane, results);

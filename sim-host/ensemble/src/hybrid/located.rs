@@ -83,7 +83,11 @@ impl ModeOutput<f64> for LaneOutput<'_> {
         for (i, wheel) in self.device.wheels.iter().enumerate() {
             unknowns[i] = match wheel.coupling {
                 Coupling::Slipping(_) => value(&self.series.spins[i], time),
-                _ => self.parameters.spin_after(wheel, time),
+                _ => {
+                    let mut wheel = *wheel;
+                    self.parameters.coast(&mut wheel, time);
+                    wheel.spin
+                }
             };
         }
         unknowns

@@ -53,7 +53,7 @@ pub(super) struct Stepped {
 /// Blocks in their modes, one in each lane; SI units.
 #[derive(Debug)]
 pub(super) struct Stretch<B> {
-    kind: Kind,
+    pub(super) kind: Kind,
     body: B,
     parameters: ScaledParameters<Number>,
     law: ModeCoefficients<Number>,
@@ -267,7 +267,7 @@ impl<B: LaneBody> Stretch<B> {
         // θ, θ̇, the ground twice, the clock and two flywheels.
         const GIVEN: usize = 7;
         let zero = number(0.0);
-        let Expansion { tape, motion: series, guards, spins, force, .. } = expansion;
+        let Expansion { tape, motion: series, guards, spins, force } = expansion;
         let tape = &*tape;
         let body = self.body.known(self.kind);
         let next = Cell::new(GIVEN);

@@ -4,7 +4,7 @@ use std::fs::DirEntry;
 use std::path::{Path, PathBuf};
 
 /// Endings of the files that a folder is searched for. A file that is named is read whatever its ending.
-pub const ENDINGS: [&str; 8] = ["acc", "at2", "csv", "dat", "g3", "json", "smc", "txt"];
+const ENDINGS: [&str; 8] = ["acc", "at2", "csv", "dat", "g3", "json", "smc", "txt"];
 
 /// Folders within folders that are searched.
 const DEEPEST: usize = 16;
@@ -14,18 +14,18 @@ const MOST_NAMES: usize = 3;
 
 /// What a folder holds.
 #[derive(Debug, Default)]
-pub struct Found {
+struct Found {
     /// Files that may be records, by path.
-    pub files: Vec<PathBuf>,
+    files: Vec<PathBuf>,
     /// Folders without such files, or that cannot be searched, in a line each.
-    pub unreadable: Vec<String>,
+    unreadable: Vec<String>,
     /// What may be meant as a record and is none: its path and why.
-    pub passed_over: Vec<(PathBuf, &'static str)>,
+    passed_over: Vec<(PathBuf, &'static str)>,
 }
 
 impl Found {
     /// What of `folder` was passed over, if anything was.
-    pub fn passed_over_line(&self, folder: &Path) -> Option<String> {
+    fn passed_over_line(&self, folder: &Path) -> Option<String> {
         let name = |(path, why): &(PathBuf, &str)| format!("{} ({why})", shown(path.strip_prefix(folder).unwrap_or(path)));
         let names: Vec<String> = self.passed_over.iter().map(name).collect();
         (!names.is_empty()).then(|| format!("{}: {} passed over: {}", folder.display(), names.len(), first_of(&names)))
@@ -44,7 +44,7 @@ pub fn shown(path: &Path) -> String {
 }
 
 /// The files of `folder` and of those below it that may be records. Links to folders are not followed.
-pub fn search(folder: &Path) -> Found {
+fn search(folder: &Path) -> Found {
     let mut found = Found::default();
     search_below(folder, DEEPEST, &mut found);
     if found.files.is_empty() && found.unreadable.is_empty() {
@@ -55,7 +55,7 @@ pub fn search(folder: &Path) -> Found {
     found
 }
 
-/// Record files named on a command line.
+/// Record files that a command line or a study names.
 #[derive(Debug, Default)]
 pub struct Named {
     /// The files, those of a folder by path in its place.

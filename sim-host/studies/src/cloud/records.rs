@@ -10,7 +10,7 @@ use sprag_sim::scene::SceneError;
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::motions::GroundMotions;
 
-use super::folder;
+use super::folder::{self, Named};
 use super::measure::MeasuredRecord;
 use super::study::{Study, check_units};
 use super::study_file::{DescribedRecord, RecordEntry};
@@ -138,16 +138,14 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
             }
         };
         let path = study.folder.join(path);
-        if !path.is_dir() {
-            let name = path.file_name().map_or_else(|| folder::shown(&path), |name| name.to_string_lossy().into_owned());
-            sources.push(Source { name, path, options, event });
-            continue;
-        }
-        let inside = folder::search(&path);
-        found.passed_over.extend(inside.passed_over_line(&path));
-        found.unreadable.extend(inside.unreadable);
-        for file in inside.files {
-            let name = folder::shown(file.strip_prefix(&path).unwrap_or(&file));
+        let named = Named::of(std::slice::from_ref(&path));
+        found.passed_over.extend(named.passed_over);
+        found.unreadable.extend(named.unreadable);
+        for file in named.files {
+            let name = match file.strip_prefix(&path) {
+                Ok(inside) if !inside.as_os_str().is_empty() => folder::shown(inside),
+                _ => file.file_name().map_or_else(|| folder::shown(&file), |name| name.to_string_lossy().into_owned()),
+            };
             sources.push(Source { name, path: file, options: options.clone(), event: event.clone() });
         }
     }

@@ -16,5 +16,5 @@ fn the_same_holds_under_recorded_motions() {
     for file in files.iter().filter(|file| file.extension().is_some_and(|ending| ending == "AT2")).step_by(5) {
         std::fs::copy(file, few.path().join(file.file_name().unwrap())).unwrap();
     }
-    simulated_again(&study("largest_force_ratio = 0.25", few.path()), |name| few.path().join(name));
+    simulated_again(&study("largest_force_ratio = 0.25", few.path()), 1e-10, |name| few.path().join(name));
 }
