@@ -276,31 +276,34 @@ impl<'a> LoopTask<'a> {
         watcher: &mut dyn Watcher,
         observer: &mut dyn TickObserver,
     ) -> Result<Ending, LoopFailure> {
+        let loaded = self.task().loaded()?;
+        let closed = ClosedLoop {
+            clock: self.clock(),
+            suite: self.suite,
+            seed: self.seed,
+            feedback: self.feedback(),
+            disturbance,
+            slenderness: loaded.block.slenderness(),
+            interrupt: self.interrupt,
+        };
+        Ok(closed.run(&mut self.plant(&loaded.block)?, driver, watcher, observer)?)
+    }
+
+    /// The plant, of which `block` is the block with what it carries.
+    pub(super) fn plant<'b>(&'b self, block: &'b Block) -> Result<Plant<'b>, ParameterError> {
         let task = self.task();
-        let loaded = task.loaded()?;
-        let clock = self.clock();
         let surroundings = Surroundings {
-            course: task.course(&loaded.block),
+            course: task.course(block),
             ground: self.ground,
             released: task.released(),
             ground_at_start: task.ground_at_start(),
             shock: self.controller.shock_s,
             latency: self.controller.latency_s,
-            step: clock.period / f64::from(self.closeness.map_or(1, Closeness::steps_per_tick)),
+            step: self.clock().period / f64::from(self.closeness.map_or(1, Closeness::steps_per_tick)),
             // A level leaves the method to the program: the one for stiff clutches, where there are any.
             exponential: self.scene.file.accuracy.method == MethodName::ExponentialMidpoint || self.closeness.is_some(),
         };
-        let slenderness = loaded.block.slenderness();
-        let closed = ClosedLoop {
-            clock,
-            suite: self.suite,
-            seed: self.seed,
-            feedback: self.feedback(),
-            disturbance,
-            slenderness,
-            interrupt: self.interrupt,
-        };
-        Ok(closed.run(&mut Plant::new(self.machine()?, surroundings), driver, watcher, observer)?)
+        Ok(Plant::new(self.machine()?, surroundings))
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.

@@ -32,14 +32,19 @@ pub struct Shared<L> {
     pub state: ControllerState,
     signs: Signs,
     drift: f64,
+    /// Time over 1/p from tick to tick, and what is left of the drift after it.
+    fading: (f64, f64),
     time: f64,
 }
+
+/// Ticks whose lengths differ by less than this fraction are as long: their ends are rounded.
+const SAME_LENGTH: f64 = 1e-9;
 
 impl<L: Law> Shared<L> {
     /// At power-on.
     pub fn new(controller: Controller<L>) -> Shared<L> {
         let state = controller.start();
-        Shared { controller, state, signs: Signs::default(), drift: 0.0, time: 0.0 }
+        Shared { controller, state, signs: Signs::default(), drift: 0.0, fading: (0.0, 1.0), time: 0.0 }
     }
 }
 
@@ -60,7 +65,10 @@ impl<L: Law> Driver for Shared<L> {
             quiet: ground[0] == 0.0,
         };
         let elapsed = f64::from(model.parameters.frequency) * (plant.time - self.time);
-        self.drift = (self.drift + elapsed * plant.ground[0]) * math::exp(-elapsed / f64::from(DRIFT_TIME));
+        if (elapsed - self.fading.0).abs() > SAME_LENGTH * elapsed {
+            self.fading = (elapsed, math::exp(-elapsed / f64::from(DRIFT_TIME)));
+        }
+        self.drift = (self.drift + elapsed * plant.ground[0]) * self.fading.1;
         self.time = plant.time;
         if !asked {
             return Wish::Release;

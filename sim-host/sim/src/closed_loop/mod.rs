@@ -11,10 +11,13 @@ pub mod feedback;
 mod gains;
 pub mod loop_scene;
 mod measured;
+mod path;
 pub mod plant;
 pub mod report;
 pub mod run;
 mod supervision;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 pub use assemble::{LoopFailure, LoopTask};

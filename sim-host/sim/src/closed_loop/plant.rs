@@ -3,6 +3,7 @@
 use sprag_loops::{HybridLoop, Method, hybrid};
 use sprag_shared::equation::Accelerations;
 use sprag_shared::equation::body::Body;
+use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::DeviceOutput;
@@ -12,6 +13,7 @@ use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
+use super::path::Path;
 use super::truth::{Places, Posture, Shocks};
 use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 use crate::scene::motions::GroundMotions;
@@ -72,6 +74,8 @@ struct Pieces {
     vertical: Option<SumSegment<f64>>,
     /// It certainly lifts no block that stands.
     holds: bool,
+    /// It accelerates along a straight line.
+    straight: bool,
 }
 
 impl Pieces {
@@ -93,6 +97,7 @@ pub struct Plant<'a> {
     state: HybridState<f64>,
     surroundings: Surroundings<'a>,
     shocks: Shocks,
+    path: Path,
     places: Places,
     footing: Footing<f64>,
     posture: Posture,
@@ -114,7 +119,8 @@ impl<'a> Plant<'a> {
             None => machine.at_rest(),
         };
         let block = surroundings.course.block;
-        let step = surroundings.step;
+        // Rounding of a tick's ends must not make a step of its own.
+        let step = surroundings.step * (1.0 + 1e-9);
         let method = if surroundings.exponential {
             FixedStep { scheme: Scheme::ExponentialMidpoint, step }
         } else {
@@ -124,12 +130,13 @@ impl<'a> Plant<'a> {
         Plant {
             places,
             footing: machine.footing(),
-            posture: places.posture(&machine, &state.motion),
+            posture: places.posture(&machine, state.motion.side, state.motion.rotation),
             machine,
             method: hybrid(Method::Fixed(method)),
             state,
             surroundings,
             shocks: Shocks::new(surroundings.shock),
+            path: Path::default(),
             time: 0.0,
             index: 0,
             pieces: None,
@@ -164,9 +171,10 @@ impl<'a> Plant<'a> {
         let vertical = self.surroundings.ground.vertical.as_ref().map(GroundMotion::segments);
         let up = vertical.and_then(|segments| segments.get(self.index)).map(|segment| segment.shape.to());
         let along = horizontal.map_or(SumSegment::QUIET, |segment| segment.shape.to());
-        let holds = |segment: &Segment| self.footing.holds(shaking(&along, up.as_ref()), segment.duration).is_some();
-        let holds = horizontal.is_some_and(holds);
-        self.pieces = Some(Pieces { horizontal: along, vertical: up, holds });
+        let duration = horizontal.map_or(0.0, |segment| segment.duration);
+        let holds = self.footing.holds(shaking(&along, up.as_ref()), duration).is_some();
+        let straight = [Some(&along), up.as_ref()].into_iter().flatten().all(|piece| piece.curvature_bound() == 0.0);
+        self.pieces = Some(Pieces { horizontal: along, vertical: up, holds, straight });
         let bound = horizontal.map_or(0.0, |segment| segment.bound);
         self.limits.overturned = self.surroundings.course.machine_angle(&self.machine, bound, 0.0, self.lightest);
     }
@@ -182,14 +190,38 @@ impl<'a> Plant<'a> {
     pub fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher) {
         watcher.segment(self.time, self.segment());
         self.shocks.origin = self.time;
-        self.machine.order(&mut self.state, wanted, &mut Both(watcher, &mut self.shocks));
+        self.machine.order(&mut self.state, wanted, &mut Watched(watcher, &mut self.shocks, &mut self.path));
     }
 
-    /// Follows it until `until` (s).
+    /// Follows it up to the last of `instants` (s, ascending), and gives `see` the truth at each of them; where it goes along a straight line,
+    /// at the last alone.
     ///
     /// # Errors
     /// [`Stopped`] by the core.
-    pub fn advance(&mut self, until: f64, watcher: &mut dyn Watcher) -> Result<(), Stopped> {
+    pub fn advance(
+        &mut self,
+        instants: &[f64],
+        watcher: &mut dyn Watcher,
+        see: &mut dyn FnMut(f64, &Truth),
+    ) -> Result<(), Stopped> {
+        // What springs do between the ends of a step, these do not show.
+        let together = if self.machine.transmission.traits().springs { 1 } else { instants.len() };
+        for instants in instants.chunks(together.max(1)) {
+            let [between @ .., last] = instants else { break };
+            self.advance_past(between, *last, watcher, see)?;
+            see(*last, &self.truth());
+        }
+        Ok(())
+    }
+
+    fn advance_past(
+        &mut self,
+        between: &[f64],
+        until: f64,
+        watcher: &mut dyn Watcher,
+        see: &mut dyn FnMut(f64, &Truth),
+    ) -> Result<(), Stopped> {
+        let before = self.time;
         while self.time < until && self.state.motion.phase != Phase::Overturned {
             while self.segment().is_some_and(|segment| segment.start + segment.duration <= self.time) {
                 self.index += 1;
@@ -206,20 +238,32 @@ impl<'a> Plant<'a> {
                 segment.map_or((self.time, until), |segment| (segment.start, until.min(segment.start + segment.duration)));
             watcher.segment(self.time, segment);
             self.shocks.origin = self.time;
+            self.path.begin(self.time, self.state.motion.side);
             if let Some(pieces) = &self.pieces {
                 let (offset, duration) = (self.time - start, end - self.time);
                 if pieces.holds && self.machine.waits(&self.state, duration) {
                     self.machine.stay(&mut self.state, pieces.accelerations(offset, duration), duration);
+                    if pieces.straight && self.shocks.over_at(before) && (before, until) == (self.time, end) {
+                        self.time = end;
+                        return Ok(());
+                    }
                 } else {
                     let horizontal = pieces.horizontal.after(offset);
                     let vertical = pieces.vertical.as_ref().map(|piece| piece.after(offset));
                     let shaking = shaking(&horizontal, vertical.as_ref());
                     if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
-                        let mut both = Both(watcher, &mut self.shocks);
+                        let mut watched = Watched(watcher, &mut self.shocks, &mut self.path);
                         let ended =
-                            self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut both);
+                            self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut watched);
                         ended.map_err(|stopped| stopped.after(self.time))?;
                     }
+                }
+                for instant in between.iter().copied().filter(|&instant| instant > self.time && instant <= end) {
+                    let [horizontal, vertical, _] = pieces.accelerations(offset, instant - self.time);
+                    let (side, motion) = self.path.at(instant);
+                    self.places.follow(&mut self.posture, &self.machine, side, motion.rotation);
+                    let acceleration = motion.acceleration + self.shocks.at(instant);
+                    see(instant, &self.places.truth(&self.posture, (motion.velocity, acceleration), [horizontal, vertical]));
                 }
             }
             self.time = end;
@@ -227,9 +271,14 @@ impl<'a> Plant<'a> {
         Ok(())
     }
 
+    fn take_posture(&mut self) {
+        let BlockState { side, rotation, .. } = self.state.motion;
+        self.places.follow(&mut self.posture, &self.machine, side, rotation);
+    }
+
     /// Where it is.
     pub fn whereabouts(&mut self) -> Whereabouts {
-        self.places.follow(&mut self.posture, &self.machine, &self.state.motion);
+        self.take_posture();
         let wheels = &self.state.device.wheels;
         Whereabouts {
             time: self.time,
@@ -244,23 +293,27 @@ impl<'a> Plant<'a> {
 
     /// What perfect sensors would read.
     pub fn truth(&mut self) -> Truth {
-        self.places.follow(&mut self.posture, &self.machine, &self.state.motion);
-        self.places.truth(&self.machine, &self.state, &self.posture, self.shocks.at(self.time))
+        self.take_posture();
+        let acceleration = self.machine.acceleration_now(&self.state, &self.posture.configuration);
+        let moving = (self.state.motion.velocity, acceleration + self.shocks.at(self.time));
+        self.places.truth(&self.posture, moving, self.ground())
     }
 }
 
-/// A watcher and the shocks.
-struct Both<'a>(&'a mut dyn Watcher, &'a mut Shocks);
+/// A watcher, and what sensors need to know.
+struct Watched<'a>(&'a mut dyn Watcher, &'a mut Shocks, &'a mut Path);
 
-impl Observer<f64> for Both<'_> {
+impl Observer<f64> for Watched<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.0.device_interval(output, interval);
         self.1.device_interval(output, interval);
+        self.2.device_interval(output, interval);
     }
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.0.event(event, time, state);
         self.1.event(event, time, state);
+        self.2.event(event, time, state);
     }
 }
 

@@ -140,6 +140,7 @@ impl ClosedLoop<'_> {
         plant.preset(command);
         let mut currents = Currents::settled(command);
         let fine = clock.period / f64::from(clock.substeps);
+        let mut instants = Vec::with_capacity(clock.substeps as usize);
         let mut decisions = Decisions::default();
         let mut faults = Vec::new();
         // Faults so far and the state when |θ| last passed α.
@@ -183,11 +184,11 @@ impl ClosedLoop<'_> {
             command = self.disturbance.clutches(time, decision.command, command);
             plant.order(command, watcher);
             currents.step(self.feedback, command);
-            for part in 1..=clock.substeps {
-                let until = if part == clock.substeps { (tick + 1) as f64 * clock.period } else { time + f64::from(part) * fine };
-                plant.advance(until.min(clock.end), watcher).map_err(LoopError::Stopped)?;
-                sensors.advance(start + until, &plant.truth());
-            }
+            instants.clear();
+            instants.extend((1..clock.substeps).map(|part| (time + f64::from(part) * fine).min(clock.end)));
+            instants.push(((tick + 1) as f64 * clock.period).min(clock.end));
+            let mut see = |at: f64, truth: &Truth| sensors.advance(start + at, truth);
+            plant.advance(&instants, watcher, &mut see).map_err(LoopError::Stopped)?;
             tick += 1;
         }
         let end = plant.whereabouts();

@@ -5,7 +5,7 @@ use sprag_shared::equation::body::Body;
 use sprag_shared::math;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
-use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
+use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::{Block, GRAVITY};
@@ -49,10 +49,9 @@ impl Places {
         }
     }
 
-    /// The posture of `motion`.
+    /// The posture of a block on its toe of `side`, at θ = `rotation`.
     #[inline(always)]
-    pub fn posture(&self, machine: &HybridSystem<f64>, motion: &BlockState<f64>) -> Posture {
-        let BlockState { side, rotation, .. } = *motion;
+    pub fn posture(&self, machine: &HybridSystem<f64>, side: Sign, rotation: f64) -> Posture {
         let configuration = machine.body.configuration(side.unit(), rotation);
         let standing = self.standing_travel[usize::from(side == Sign::Negative)];
         let travel = machine.body.travel(side.unit(), &configuration) - standing;
@@ -61,30 +60,29 @@ impl Places {
         Posture { side, rotation, configuration, tilt: math::sin_cos(rotation), arm, travel: travel * self.size }
     }
 
-    /// Makes `posture` that of `motion`, if it is another one.
+    /// Makes `posture` that at θ = `rotation`, if it is another one.
     #[inline]
-    pub fn follow(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
-        if posture.rotation.to_bits() != motion.rotation.to_bits() || posture.side != motion.side {
-            self.renew(posture, machine, motion);
+    pub fn follow(&self, posture: &mut Posture, machine: &HybridSystem<f64>, side: Sign, rotation: f64) {
+        if posture.rotation.to_bits() != rotation.to_bits() || posture.side != side {
+            self.renew(posture, machine, side, rotation);
         }
     }
 
     // The posture is made in its place; one that a call returns would be copied there.
     #[inline(never)]
-    fn renew(&self, posture: &mut Posture, machine: &HybridSystem<f64>, motion: &BlockState<f64>) {
-        *posture = self.posture(machine, motion);
+    fn renew(&self, posture: &mut Posture, machine: &HybridSystem<f64>, side: Sign, rotation: f64) {
+        *posture = self.posture(machine, side, rotation);
     }
 
-    /// Truth of a plant in `state`, and so in this `posture`, with the acceleration of a shock (`shock`, rad/s²) on top.
+    /// Truth of a block in `posture` with θ̇ = `velocity` and θ̈ = `acceleration`, on ground that accelerates by `ground` (in g, horizontally
+    /// and vertically).
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
     /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
-    pub fn truth(&self, machine: &HybridSystem<f64>, state: &HybridState<f64>, posture: &Posture, shock: f64) -> Truth {
-        let velocity = state.motion.velocity;
+    pub fn truth(&self, posture: &Posture, (velocity, acceleration): (f64, f64), ground: [f64; 2]) -> Truth {
         let (c, s) = posture.arm;
-        let acceleration = machine.acceleration_now(state, &posture.configuration) + shock;
         let square = velocity * velocity;
-        let ground = [state.ground[0] * GRAVITY, GRAVITY * (1.0 + state.ground[1])];
+        let ground = [ground[0] * GRAVITY, GRAVITY * (1.0 + ground[1])];
         let horizontal = ground[0] + self.size * (c * acceleration + s * square);
         let vertical = ground[1] + self.size * (s * acceleration - c * square);
         let (sine, cosine) = posture.tilt;
@@ -121,11 +119,14 @@ impl Shocks {
     /// rad/s² at `time` (s).
     #[inline]
     pub fn at(&self, time: f64) -> f64 {
+        if self.over_at(time) { 0.0 } else { self.sum_at(time) }
+    }
+
+    /// None lasts beyond `time` (s).
+    #[inline]
+    pub fn over_at(&self, time: f64) -> bool {
         // The latest lasts longest.
-        if self.duration <= 0.0 || time - self.recent[(self.next + 3) % 4].0 >= self.duration {
-            return 0.0;
-        }
-        self.sum_at(time)
+        self.duration <= 0.0 || time - self.recent[(self.next + 3) % 4].0 >= self.duration
     }
 
     fn sum_at(&self, time: f64) -> f64 {

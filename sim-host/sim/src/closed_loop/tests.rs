@@ -1,0 +1,101 @@
+//! What sensors see between ticks.
+
+use super::LoopScene;
+use super::plant::Extremes;
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+use crate::sensor::Truth;
+
+const PERIOD: f64 = 5e-4;
+
+/// Instants of the ticks up to `end` (s), `parts` of them each.
+fn ticks(end: f64, parts: u32) -> impl Iterator<Item = Vec<f64>> {
+    let part = PERIOD / f64::from(parts);
+    (0..(end / PERIOD) as u32).map(move |tick| (1..=parts).map(|index| f64::from(tick * parts + index) * part).collect())
+}
+
+/// A scene with a device of its own, and a sine that rocks the block and lets it come to rest.
+fn scene(device: &str, ground: &str) -> LoopScene {
+    let text = format!(
+        "block = {{ size_m = 2.0, slenderness_deg = 12.0 }}
+        device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {device} }}]
+        ground = [{{ {ground} }}]"
+    );
+    LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
+}
+
+/// Truths over `end` (s) of a plant whose first clutch is engaged for 0.2 s of each 0.5 s and the other one for 0.2 s after that, given for
+/// whole ticks, or by a plant that `stops` at every instant.
+fn truths(desk: &LoopScene, end: f64, stops: bool) -> Vec<(f64, Truth)> {
+    let interrupt = Interrupt::default();
+    let task = desk.task(0, 1, &interrupt);
+    let loaded = desk.scene.structure(0).loaded().unwrap();
+    let mut plant = task.plant(&loaded.block).unwrap();
+    let mut seen = Vec::new();
+    let mut see = |time, truth: &Truth| seen.push((time, *truth));
+    for instants in ticks(end, 4) {
+        let phase = instants[0] % 0.5;
+        plant.order([phase < 0.2, (0.2..0.4).contains(&phase)], &mut Extremes::default());
+        for instants in instants.chunks(if stops { 1 } else { 4 }) {
+            plant.advance(instants, &mut Extremes::default(), &mut see).unwrap();
+        }
+    }
+    seen
+}
+
+/// Values of a truth, as sensors have them.
+fn values(truth: &Truth) -> [f64; 6] {
+    let Truth { rate, block, ground, travel } = *truth;
+    [rate, block[0], block[1], ground[0], ground[1], travel]
+}
+
+const RIGID: &str = "engagement = 'rigid', flywheel = { viscous_rate_1_s = 0.05 }, actuation = { engagement_delay_s = 0.0023 }";
+const SLIPPING: &str = "clutch = { capacity_ratio = 0.1 }";
+const ELASTIC: &str = "clutch = { stiffness_ratio = 1.0e4, damping_ratio = 0.1 }";
+const SINE: &str = "motion = 'sine', amplitude_g = 0.5, frequency_hz = 1.3";
+
+/// One step a tick, and what is known between its ends, show what a plant shows that stops at every instant.
+#[test]
+fn a_plant_need_not_stop_to_be_seen() {
+    for device in [RIGID, SLIPPING, ELASTIC] {
+        let desk = scene(device, SINE);
+        let [together, stopped] = [false, true].map(|stops| truths(&desk, 4.0, stops));
+        assert_eq!(together.len(), stopped.len());
+        let rocks = together.iter().filter(|(_, truth)| truth.rate != 0.0).count();
+        assert!(2 * rocks > together.len(), "{device}: {rocks} of {}", together.len());
+        for ((time, one), (at, other)) in together.iter().zip(&stopped) {
+            assert_eq!(time, at);
+            for (one, other) in values(one).into_iter().zip(values(other)) {
+                // The shock of an impact magnifies what the length of steps does to its instant.
+                assert!((one - other).abs() < 1e-7, "{device} at {time} s: {one} and {other}");
+            }
+        }
+    }
+}
+
+/// Of a block that stands on ground whose acceleration goes along a straight line, the truth is given at the ends of ticks alone, and goes
+/// along a straight line between them.
+#[test]
+fn a_straight_line_is_seen_by_its_ends() {
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.csv");
+    let desk = scene(RIGID, &format!("motion = 'record', file = '{record}', scale = 0.2"));
+    let end = 8.0;
+    let [seen, every] = [false, true].map(|stops| truths(&desk, end, stops));
+    let ticks = (end / PERIOD) as usize;
+    // Where a sample falls within a tick the line breaks, and all is seen.
+    assert!(seen.len() < ticks + ticks / 4 && seen.iter().all(|(_, truth)| truth.rate == 0.0), "{} of {ticks}", seen.len());
+    let largest = every.iter().fold(0.0_f64, |largest, (_, truth)| largest.max(truth.ground[0].abs()));
+    assert!(largest > 0.5, "{largest}");
+    let (mut before, mut places) = ((0.0, Truth::STILL), seen.iter().copied().peekable());
+    for (time, truth) in &every {
+        let Some(after) = places.peek() else { break };
+        let part = (time - before.0) / (after.0 - before.0);
+        for ((value, first), last) in values(truth).into_iter().zip(values(&before.1)).zip(values(&after.1)) {
+            assert!((first + part * (last - first) - value).abs() < 1e-12, "{time} s: {truth:?}");
+        }
+        if after.0 == *time {
+            before = places.next().unwrap();
+        }
+    }
+    assert_eq!(places.next(), None);
+}
