@@ -3,6 +3,7 @@
 use sprag_report::progress::Progress;
 use sprag_shared::equation::clutch_rule::wheel_for;
 use sprag_shared::motion::state::Phase;
+use sprag_sim::closed_loop::decisions::Decisions;
 use sprag_sim::closed_loop::failing::{ALL, Failing, Part};
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::run::Tick;
@@ -98,10 +99,10 @@ fn a_run_is_its_seed() {
     }
 }
 
-/// What the law would want of a standing block is worked out only for those who look at it, and changes nothing else: the law's memory of the
-/// ground goes on.
+/// What the law would want of the true motion, and of a standing block, is worked out only for those who look at it, and changes nothing else.
+/// The law's memory of the ground goes on while nobody looks.
 #[test]
-fn whoever_looks_at_a_block_at_rest_changes_nothing() {
+fn whoever_looks_at_what_the_law_would_want_changes_nothing() {
     let interrupt = Interrupt::default();
     let conditions = Conditions::new(None, &interrupt);
     // The block stands for a while on a ground that moves, and again in the end.
@@ -109,9 +110,14 @@ fn whoever_looks_at_a_block_at_rest_changes_nothing() {
     for law in ["always-engaged", "gated-table", "look-ahead"] {
         let variant = Variant::new(law, &[&format!("controller.law=\"{law}\""), "controller.rate_hz=500.0"]);
         let alone = with_loop(&motion, &variant, &conditions, |task| Ok(task.answered::<()>()?.2)).unwrap();
+        let judged = with_loop(&motion, &variant, &conditions, |task| Ok(task.answered::<Decisions>()?.2)).unwrap();
         let seen = with_loop(&motion, &variant, &conditions, |task| Ok(task.answered::<Vec<Tick>>()?.2)).unwrap();
-        assert_eq!((&alone.ending.decisions, &alone.ending.delays), (&seen.ending.decisions, &seen.ending.delays), "{law}");
-        assert_eq!(alone.extremes.peaks.rotation.to_bits(), seen.extremes.peaks.rotation.to_bits(), "{law}");
+        let decisions = Decisions::of(&seen.ticks);
+        assert_eq!((judged.ticks.report(), judged.ticks.delays()), (decisions.report(), decisions.delays()), "{law}");
+        for looped in [&alone.extremes, &judged.extremes] {
+            assert_eq!(looped.peaks.rotation.to_bits(), seen.extremes.peaks.rotation.to_bits(), "{law}");
+        }
+        assert_eq!(alone.ending.engagements, decisions.report().switches.div_ceil(2), "{law}");
         let rests = |tick: &&Tick| tick.plant.motion.phase == Phase::Rest;
         let at_rest: Vec<bool> = seen.ticks.iter().filter(rests).map(|tick| tick.ideal).collect();
         assert!(at_rest.len() > 50 && at_rest.len() + 50 < seen.ticks.len(), "{law}: {} of {}", at_rest.len(), seen.ticks.len());

@@ -14,7 +14,7 @@ use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
-use sprag_sim::closed_loop::decisions::DecisionReport;
+use sprag_sim::closed_loop::decisions::{DecisionReport, Decisions};
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
 use sprag_sim::closed_loop::run::Ending;
@@ -168,15 +168,15 @@ fn specimens(
     let alpha = desk.scene.block.slenderness();
     let one = |number: u64| {
         let seed = desk.controller.sensors.seed().wrapping_add(number);
-        let mut extremes = Extremes::default();
-        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut ());
+        let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
+        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
         done();
         let peak = extremes.peaks.rotation / alpha;
-        ending.map(|Ending { motion, decisions, faults, .. }| Specimen {
+        ending.map(|Ending { motion, faults, .. }| Specimen {
             seed,
             outcome: Outcome::of(&motion, &extremes.peaks),
             peak,
-            decisions,
+            decisions: decisions.report(),
             faults: faults.len(),
         })
     };

@@ -1,6 +1,9 @@
 //! How good a controller's decisions are: against the same law on the plant as it truly is.
 
 use serde::Serialize;
+use sprag_shared::motion::state::Phase;
+
+use super::run::{Looks, Tick, TickObserver};
 
 /// One instant of a closed loop, as decisions are judged.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +18,15 @@ pub struct Moment {
     pub ideal: bool,
     /// One is.
     pub engaged: bool,
+}
+
+impl From<&Tick> for Moment {
+    fn from(tick: &Tick) -> Moment {
+        let plant = &tick.plant;
+        let [first, second] = plant.engaged;
+        let (rocks, velocity) = (plant.motion.phase == Phase::Rocking, plant.motion.velocity);
+        Moment { time: plant.time, rocks, velocity, ideal: tick.ideal, engaged: first || second }
+    }
 }
 
 /// Collects moments at a regular interval.
@@ -45,17 +57,27 @@ pub struct DecisionReport {
     pub chatter: u32,
 }
 
-impl DecisionReport {
-    /// How often the clutches engaged: each second movement, the first one included.
-    pub fn engagements(&self) -> u32 {
-        self.switches.div_ceil(2)
-    }
-}
-
 /// Longest delay of a movement that still belongs to a change of the law, s.
 const LONGEST: f64 = 0.1;
 
+impl TickObserver for Decisions {
+    fn tick(&mut self, tick: &Tick) {
+        self.add(Moment::from(tick));
+    }
+
+    fn looks(&self) -> Looks {
+        Looks::Rocking
+    }
+}
+
 impl Decisions {
+    /// Those of all `ticks`.
+    pub fn of(ticks: &[Tick]) -> Decisions {
+        let mut decisions = Decisions::default();
+        ticks.iter().for_each(|tick| decisions.tick(tick));
+        decisions
+    }
+
     /// Adds a moment.
     pub fn add(&mut self, now: Moment) {
         if let Some(last) = self.last {

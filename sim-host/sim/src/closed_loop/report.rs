@@ -8,7 +8,7 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::observers::peaks::Peaks;
 
 use super::answered::Looped;
-use super::decisions::DecisionReport;
+use super::decisions::{DecisionReport, Decisions};
 use super::run::{Ending, Tick};
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
@@ -109,7 +109,7 @@ impl LoopReport {
             peak_change: peak.zip(ideal.peak_rotation).filter(|(_, ideal)| *ideal > 0.0).map(|(peak, ideal)| peak / ideal - 1.0),
             impacts: ending.motion.impacts,
             ticks: ending.ticks,
-            decisions: ending.decisions.clone(),
+            decisions: Decisions::of(&ticks).report(),
             missed_engagements: ending.missed,
             controller_state: format!("{:?}", ending.phase).to_lowercase(),
             faults: faults.collect(),

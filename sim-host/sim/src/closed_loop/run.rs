@@ -7,7 +7,6 @@ use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase as ControllerPhase;
 use sprag_shared::motion::state::{BlockState, Phase, Stopped};
 
-use super::decisions::{DecisionReport, Decisions, Moment};
 use super::disturbance::Disturbance;
 use super::driver::Driver;
 use super::feedback::{Currents, Feedback};
@@ -41,8 +40,19 @@ pub struct Tick {
     pub sample: Sample,
     /// And said.
     pub decision: Decision,
-    /// What the same law would want of the true motion; false of a block that stands, but for observers that [look at rest](TickObserver::looks_at_rest).
+    /// What the same law would want of the true motion; false where the observer [does not look](TickObserver::looks).
     pub ideal: bool,
+}
+
+/// When somebody looks at [`Tick::ideal`]; nobody else pays for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Looks {
+    /// Never.
+    Never,
+    /// While the block rocks: one that stands has no law to follow.
+    Rocking,
+    /// Always.
+    Always,
 }
 
 /// Whatever looks at every tick.
@@ -50,9 +60,9 @@ pub trait TickObserver {
     /// A tick.
     fn tick(&mut self, tick: &Tick);
 
-    /// Whether it looks at [`Tick::ideal`] of a block that stands, which has no law to follow.
-    fn looks_at_rest(&self) -> bool {
-        false
+    /// When it looks at [`Tick::ideal`].
+    fn looks(&self) -> Looks {
+        Looks::Never
     }
 }
 
@@ -67,8 +77,8 @@ impl TickObserver for Vec<Tick> {
         self.push(*tick);
     }
 
-    fn looks_at_rest(&self) -> bool {
-        true
+    fn looks(&self) -> Looks {
+        Looks::Always
     }
 }
 
@@ -90,10 +100,8 @@ pub struct Ending {
     pub motion: BlockState<f64>,
     /// Ticks while the ground or the block moved.
     pub ticks: u64,
-    /// How good the decisions were.
-    pub decisions: DecisionReport,
-    /// From a change of the law to the clutch's movement, s.
-    pub delays: Vec<f64>,
+    /// Engagements of the inerter: from no clutch engaged to any.
+    pub engagements: u32,
     /// The controller's last state; of a block that has overturned, that in which its fall began.
     pub phase: ControllerPhase,
     /// Faults in the order in which they were entered, and when, s; none of a fall: sensors on a falling block read what no rocking
@@ -141,7 +149,8 @@ impl ClosedLoop<'_> {
         let mut currents = Currents::settled(command);
         let fine = clock.period / f64::from(clock.substeps);
         let mut instants = Vec::with_capacity(clock.substeps as usize);
-        let mut decisions = Decisions::default();
+        let looks = observer.looks();
+        let (mut engagements, mut was_engaged) = (0, false);
         let mut faults = Vec::new();
         // Faults so far and the state when |θ| last passed α.
         let mut fall = None;
@@ -166,15 +175,16 @@ impl ClosedLoop<'_> {
             let mut circumstances = Circumstances::default();
             self.disturbance.disturb(time, &mut sample, &mut circumstances);
             let decision = driver.tick(&sample, circumstances);
-            let rocks = whereabouts.motion.phase == Phase::Rocking;
-            let ideal = driver.ideal(&whereabouts, rocks || observer.looks_at_rest()) != Wish::Release;
+            let asked = looks == Looks::Always || whereabouts.motion.phase == Phase::Rocking;
+            let ideal = looks != Looks::Never && driver.ideal(&whereabouts, asked) != Wish::Release;
             if whereabouts.motion.rotation.abs() < self.slenderness {
                 fall = None;
             } else if fall.is_none() {
                 fall = Some((faults.len(), phase));
             }
             let engaged = whereabouts.engaged[0] || whereabouts.engaged[1];
-            decisions.add(Moment { time, rocks, velocity: whereabouts.motion.velocity, ideal, engaged });
+            engagements += u32::from(engaged && !was_engaged);
+            was_engaged = engaged;
             if decision.fault != last_fault {
                 last_fault = decision.fault;
                 faults.extend(decision.fault.map(|fault| (time, fault)));
@@ -196,15 +206,7 @@ impl ClosedLoop<'_> {
             faults.truncate(entered);
             phase = state;
         }
-        Ok(Ending {
-            motion: end.motion,
-            ticks: tick,
-            decisions: decisions.report(),
-            delays: decisions.delays(),
-            phase,
-            faults,
-            missed: end.missed,
-        })
+        Ok(Ending { motion: end.motion, ticks: tick, engagements, phase, faults, missed: end.missed })
     }
 
     /// Stillness: the controller boots, tests its clutches and calibrates its sensors. Returns the last command.

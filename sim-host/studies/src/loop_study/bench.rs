@@ -8,7 +8,7 @@ use sprag_report::progress::Progress;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::{Accuracy, Worst};
-use sprag_sim::closed_loop::run::Ending;
+use sprag_sim::closed_loop::run::{Ending, TickObserver};
 use sprag_sim::closed_loop::{LoopFailure, LoopTask};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::RecordSummary;
@@ -188,13 +188,25 @@ pub fn with_loop<R>(
 /// # Errors
 /// [`StudyError`].
 pub fn run_loop(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<LoopResult, StudyError> {
+    Ok(run_loop_before::<()>(motion, variant, conditions)?.0)
+}
+
+/// [`run_loop`] before the eyes of a new `T`.
+///
+/// # Errors
+/// [`StudyError`].
+pub fn run_loop_before<T: TickObserver + Default>(
+    motion: &Motion,
+    variant: &Variant,
+    conditions: &Conditions<'_>,
+) -> Result<(LoopResult, T), StudyError> {
     with_loop(motion, variant, conditions, |task| {
-        let (_, error, looped) = task.answered::<()>()?;
+        let (_, error, looped) = task.answered::<T>()?;
         let (outcome, peak) = (looped.outcome(), looped.extremes.peaks.rotation / task.scene.block.slenderness());
         if let Some(error) = error {
             conditions.note(&error, (!outcome.overturned()).then_some(peak));
         }
-        Ok(LoopResult { outcome, peak, ending: looped.ending })
+        Ok((LoopResult { outcome, peak, ending: looped.ending }, looped.ticks))
     })
 }
 

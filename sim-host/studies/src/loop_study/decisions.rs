@@ -2,9 +2,10 @@
 
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
+use sprag_sim::closed_loop::decisions::{DecisionReport, Decisions};
 use sprag_sim::scene::controller::EstimatorName;
 
-use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop};
+use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop_before};
 use super::motion::{Motion, and_records, grid};
 use super::report::Report;
 use crate::statistics::quantile;
@@ -37,7 +38,8 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
             }
         }
     }
-    let results = each(&motions, &variants, progress, |motion, variant| run_loop(motion, variant, conditions))?;
+    let results =
+        each(&motions, &variants, progress, |motion, variant| run_loop_before::<Decisions>(motion, variant, conditions))?;
     let mut report = Report::new("decisions", "Decision quality");
     report.paragraph(&format!(
         "Motions: {} one-cycle sine and cosine pulses (ω/p 1.5 to 6, peaks of 1.5 to 4 uplift thresholds){}.\n\nEq. 10 predicted at 2 kHz, R = 2 m, α = 10°, σ = 0.5, among blocks that stand, against Eq. 10 on the true motion. Wrong: share of the rocking \
@@ -63,18 +65,18 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
     );
     for (label, results) in labels.into_iter().zip(&results) {
         // A block that falls over is decided on by nobody.
-        let results: Vec<_> = results.iter().filter(|result| !result.outcome.overturned()).collect();
-        let count = results.len() as f64;
-        let mean =
-            |pick: &dyn Fn(&super::bench::LoopResult) -> f64| results.iter().map(|result| pick(result)).sum::<f64>() / count;
-        let delays: Vec<f64> = results.iter().flat_map(|result| result.ending.delays.iter().map(|delay| 1e3 * delay)).collect();
+        let decisions: Vec<&Decisions> =
+            results.iter().filter(|(result, _)| !result.outcome.overturned()).map(|(_, decisions)| decisions).collect();
+        let reports: Vec<DecisionReport> = decisions.iter().map(|decisions| decisions.report()).collect();
+        let mean = |pick: &dyn Fn(&DecisionReport) -> f64| reports.iter().map(pick).sum::<f64>() / reports.len() as f64;
+        let delays: Vec<f64> = decisions.iter().flat_map(|decisions| decisions.delays()).map(|delay| 1e3 * delay).collect();
         let mut row = label.to_vec();
-        row.push(number(100.0 * mean(&|result| result.ending.decisions.wrong_share), 2));
+        row.push(number(100.0 * mean(&|report| report.wrong_share), 2));
         row.push(number(quantile(&delays, 0.5), 2));
         row.push(number(quantile(&delays, 0.95), 2));
-        row.push(number(mean(&|result| f64::from(result.ending.decisions.chatter)), 2));
-        row.push(number(mean(&|result| f64::from(result.ending.decisions.switches)), 1));
-        row.push(number(mean(&|result| f64::from(result.ending.decisions.ideal_switches)), 1));
+        row.push(number(mean(&|report| f64::from(report.chatter)), 2));
+        row.push(number(mean(&|report| f64::from(report.switches)), 1));
+        row.push(number(mean(&|report| f64::from(report.ideal_switches)), 1));
         table.row(row);
     }
     report.table("decisions", table);

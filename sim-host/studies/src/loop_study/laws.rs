@@ -117,7 +117,7 @@ impl Bench<'_> {
         let mut variant = self.variant().with(&format!("controller.law=\"{}\"", law.name()));
         variant.seed = 1 + specimen as u64;
         let result = run_loop(motion, &variant, self.conditions)?;
-        Ok(Run { outcome: result.outcome, peak: result.peak, engagements: result.ending.decisions.engagements() })
+        Ok(Run { outcome: result.outcome, peak: result.peak, engagements: result.ending.engagements })
     }
 
     /// Runs by kind, law and motion; motion i is shaken by specimen i mod their number.

@@ -365,7 +365,7 @@ mod tests {
                     let followed = full_state(&motion, &variant, law);
                     let peak = followed.peak.unwrap();
                     // A block that cannot fall any more is not followed to its rest.
-                    let all = closed.ending.decisions.engagements();
+                    let all = closed.ending.engagements;
                     assert!(
                         (1..=all).contains(&followed.engagements),
                         "{} {name}: {} of {all}",
