@@ -57,16 +57,12 @@ impl Inertial {
 }
 
 /// `f64::round`, inline: without SSE4.1 that is a call.
-#[inline]
+#[inline(always)]
 fn whole(value: f64) -> f64 {
-    // From 2⁵² on every number is whole; below, the cast is exact, and so is what it leaves.
-    if value.is_nan() || value.abs() >= 4_503_599_627_370_496.0 {
-        return value;
-    }
-    let toward_zero = value as i64 as f64;
-    let left = (value - toward_zero).abs();
-    let away = if left >= 0.5 { toward_zero + 1.0_f64.copysign(value) } else { toward_zero };
-    away.copysign(value)
+    // From 2⁵² on every number is whole, so a sum there is rounded to one; by even neighbours where two are as near.
+    const WHOLE: f64 = 4_503_599_627_370_496.0;
+    let nearest = ((value.abs() + WHOLE) - WHOLE).copysign(value);
+    if (value - nearest).abs() < 0.5 { nearest } else { value.round() }
 }
 
 /// What one axis adds.
@@ -238,5 +234,24 @@ impl<const AXES: usize> InertialSensor<AXES> {
             readings[axis].value = values[axis];
         }
         readings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::whole;
+
+    #[test]
+    fn whole_is_round() {
+        let ties = (-9..9).map(|k| f64::from(k) + 0.5);
+        let near = ties.clone().flat_map(|tie: f64| [tie, tie.next_up(), tie.next_down()]);
+        let powers = (0..70).map(|exponent| 1.5 * (1_u128 << exponent) as f64);
+        let large = [51, 52, 53].map(|exponent| (1_u64 << exponent) as f64);
+        let large = large.into_iter().flat_map(|power| [power - 0.5, power + 1.0]).chain([f64::MAX, f64::INFINITY]);
+        let values: Vec<f64> = near.chain(powers).chain(large).chain([0.0, 5e-324, 0.2, 0.499_999_999_999_999_94]).collect();
+        for value in values.iter().flat_map(|&value| [value, -value]) {
+            assert_eq!(whole(value).to_bits(), value.round().to_bits(), "{value}");
+        }
+        assert!(whole(f64::NAN).is_nan());
     }
 }

@@ -94,7 +94,8 @@ fn layer_of(word: u64) -> (usize, f64) {
 
 #[inline(always)]
 fn unit(word: u64) -> f64 {
-    (word >> 11) as f64 / (1_u64 << 53) as f64
+    // Of 53 bits: signed numbers are converted at once.
+    (word >> 11).cast_signed() as f64 / (1_u64 << 53) as f64
 }
 
 /// Right edge of the outermost layer of a ziggurat of 128.

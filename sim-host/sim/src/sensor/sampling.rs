@@ -33,7 +33,7 @@ pub(super) struct Clock {
     /// s.
     pub(super) period: f64,
     first: f64,
-    index: u64,
+    index: i64,
     jitter: f64,
     random: Random,
     /// The next instant, s.
