@@ -86,6 +86,18 @@ impl Pieces {
     }
 }
 
+/// Longest step over the time in which a dashpot makes two speeds equal: Runge-Kutta steps are stable up to 2.78 of it.
+const LONGEST_OF_DASHPOTS: f64 = 0.5;
+
+/// Rate at which the fastest dashpot of the device makes the speeds of rack and flywheel equal, 1/s.
+fn fastest_dashpot(machine: &HybridSystem<f64>) -> f64 {
+    let (transmission, body) = (&machine.transmission, &machine.body);
+    let parameters = &transmission.parameters;
+    let arm = body.arm(&body.configuration(1.0, 0.0));
+    let slip = if transmission.slips_viscously() { parameters.damping } else { 0.0 };
+    slip.max(parameters.drag) * (parameters.mobility + arm * arm)
+}
+
 fn shaking<'a>(horizontal: &'a SumSegment<f64>, vertical: Option<&'a SumSegment<f64>>) -> Shaking<'a, f64> {
     Shaking { horizontal, vertical: vertical.map(|piece| piece as _), support: None }
 }
@@ -106,6 +118,8 @@ pub struct Plant<'a> {
     pieces: Option<Pieces>,
     limits: Limits<f64>,
     lightest: f64,
+    /// Springs or dashpots move faster than the ends of a step show.
+    stiff: bool,
 }
 
 impl<'a> Plant<'a> {
@@ -119,8 +133,10 @@ impl<'a> Plant<'a> {
             None => machine.at_rest(),
         };
         let block = surroundings.course.block;
+        let dashpots = fastest_dashpot(&machine);
+        let steps = (surroundings.step * dashpots / LONGEST_OF_DASHPOTS).ceil().max(1.0);
         // Rounding of a tick's ends must not make a step of its own.
-        let step = surroundings.step * (1.0 + 1e-9);
+        let step = surroundings.step / steps * (1.0 + 1e-9);
         let method = if surroundings.exponential {
             FixedStep { scheme: Scheme::ExponentialMidpoint, step }
         } else {
@@ -142,6 +158,7 @@ impl<'a> Plant<'a> {
             pieces: None,
             limits: Limits { overturned: 0.0, events: MOST_EVENTS },
             lightest: surroundings.course.lightest(),
+            stiff: dashpots > 0.0 || machine.transmission.traits().springs,
         }
     }
 
@@ -204,9 +221,7 @@ impl<'a> Plant<'a> {
         watcher: &mut dyn Watcher,
         see: &mut dyn FnMut(f64, &Truth),
     ) -> Result<(), Stopped> {
-        // What springs do between the ends of a step, these do not show.
-        let together = if self.machine.transmission.traits().springs { 1 } else { instants.len() };
-        for instants in instants.chunks(together.max(1)) {
+        for instants in instants.chunks(if self.stiff { 1 } else { instants.len().max(1) }) {
             let [between @ .., last] = instants else { break };
             self.advance_past(between, *last, watcher, see)?;
             see(*last, &self.truth());

@@ -24,19 +24,19 @@ fn scene(device: &str, ground: &str) -> LoopScene {
     LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
 }
 
-/// Truths over `end` (s) of a plant whose first clutch is engaged for 0.2 s of each 0.5 s and the other one for 0.2 s after that, given for
-/// whole ticks, or by a plant that `stops` at every instant.
-fn truths(desk: &LoopScene, end: f64, stops: bool) -> Vec<(f64, Truth)> {
+/// Truths over `end` (s) of a plant whose first clutch is engaged for 0.2 s of each 0.5 s and the other one for 0.2 s after that, seen at
+/// so many `parts` of a tick, given for whole ticks or by a plant that `stops` at every instant.
+fn truths(desk: &LoopScene, end: f64, parts: u32, stops: bool) -> Vec<(f64, Truth)> {
     let interrupt = Interrupt::default();
     let task = desk.task(0, 1, &interrupt);
     let loaded = desk.scene.structure(0).loaded().unwrap();
     let mut plant = task.plant(&loaded.block).unwrap();
     let mut seen = Vec::new();
     let mut see = |time, truth: &Truth| seen.push((time, *truth));
-    for instants in ticks(end, 4) {
-        let phase = instants[0] % 0.5;
+    for instants in ticks(end, parts) {
+        let phase = (instants[instants.len() - 1] - 0.5 * PERIOD) % 0.5;
         plant.order([phase < 0.2, (0.2..0.4).contains(&phase)], &mut Extremes::default());
-        for instants in instants.chunks(if stops { 1 } else { 4 }) {
+        for instants in instants.chunks(if stops { 1 } else { instants.len() }) {
             plant.advance(instants, &mut Extremes::default(), &mut see).unwrap();
         }
     }
@@ -52,14 +52,16 @@ fn values(truth: &Truth) -> [f64; 6] {
 const RIGID: &str = "engagement = 'rigid', flywheel = { viscous_rate_1_s = 0.05 }, actuation = { engagement_delay_s = 0.0023 }";
 const SLIPPING: &str = "clutch = { capacity_ratio = 0.1 }";
 const ELASTIC: &str = "clutch = { stiffness_ratio = 1.0e4, damping_ratio = 0.1 }";
+const VISCOUS: &str = "inertance_corner_hz = 1000.0";
+const DRAGGED: &str = "engagement = 'rigid', flywheel = { drag_rate_1_s = 1.0e3 }, actuation = { engagement_delay_s = 0.0023 }";
 const SINE: &str = "motion = 'sine', amplitude_g = 0.5, frequency_hz = 1.3";
 
-/// One step a tick, and what is known between its ends, show what a plant shows that stops at every instant.
+/// One step a tick, and what is known between its ends, show what a plant shows that stops at every instant. Stiff devices stop there.
 #[test]
 fn a_plant_need_not_stop_to_be_seen() {
-    for device in [RIGID, SLIPPING, ELASTIC] {
+    for device in [RIGID, SLIPPING, ELASTIC, VISCOUS, DRAGGED] {
         let desk = scene(device, SINE);
-        let [together, stopped] = [false, true].map(|stops| truths(&desk, 4.0, stops));
+        let [together, stopped] = [false, true].map(|stops| truths(&desk, 4.0, 4, stops));
         assert_eq!(together.len(), stopped.len());
         let rocks = together.iter().filter(|(_, truth)| truth.rate != 0.0).count();
         assert!(2 * rocks > together.len(), "{device}: {rocks} of {}", together.len());
@@ -73,6 +75,17 @@ fn a_plant_need_not_stop_to_be_seen() {
     }
 }
 
+/// A step of a tick is 4.7 times as long as the fastest dashpot takes: it is divided, however often sensors look.
+#[test]
+fn a_dashpot_stays_stable_however_rarely_sensors_look() {
+    let desk = scene(VISCOUS, SINE);
+    let [rarely, often] = [1, 16].map(|parts| truths(&desk, 4.0, parts, false));
+    for ((time, one), (at, other)) in rarely.iter().zip(often.iter().skip(15).step_by(16)) {
+        assert!((time - at).abs() < 1e-12);
+        assert!((one.rate - other.rate).abs() < 1e-5 && (one.travel - other.travel).abs() < 1e-5, "{time} s: {one:?} {other:?}");
+    }
+}
+
 /// Of a block that stands on ground whose acceleration goes along a straight line, the truth is given at the ends of ticks alone, and goes
 /// along a straight line between them.
 #[test]
@@ -80,7 +93,7 @@ fn a_straight_line_is_seen_by_its_ends() {
     let record = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.csv");
     let desk = scene(RIGID, &format!("motion = 'record', file = '{record}', scale = 0.2"));
     let end = 8.0;
-    let [seen, every] = [false, true].map(|stops| truths(&desk, end, stops));
+    let [seen, every] = [false, true].map(|stops| truths(&desk, end, 4, stops));
     let ticks = (end / PERIOD) as usize;
     // Where a sample falls within a tick the line breaks, and all is seen.
     assert!(seen.len() < ticks + ticks / 4 && seen.iter().all(|(_, truth)| truth.rate == 0.0), "{} of {ticks}", seen.len());
