@@ -188,14 +188,14 @@ pub fn with_loop<R>(
 /// # Errors
 /// [`StudyError`].
 pub fn run_loop(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<LoopResult, StudyError> {
-    Ok(run_loop_before::<()>(motion, variant, conditions)?.0)
+    Ok(run_loop_observed::<()>(motion, variant, conditions)?.0)
 }
 
-/// [`run_loop`] before the eyes of a new `T`.
+/// [`run_loop`] with a new observer of its ticks, which it returns.
 ///
 /// # Errors
 /// [`StudyError`].
-pub fn run_loop_before<T: TickObserver + Default>(
+pub fn run_loop_observed<T: TickObserver + Default>(
     motion: &Motion,
     variant: &Variant,
     conditions: &Conditions<'_>,

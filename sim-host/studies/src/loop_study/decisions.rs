@@ -5,7 +5,7 @@ use sprag_report::text_table::{TextTable, number};
 use sprag_sim::closed_loop::decisions::{DecisionReport, Decisions};
 use sprag_sim::scene::controller::EstimatorName;
 
-use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop_before};
+use super::bench::{Conditions, EQUATION_10, StudyError, Variant, each, run_loop_observed};
 use super::motion::{Motion, and_records, grid};
 use super::report::Report;
 use crate::statistics::quantile;
@@ -39,7 +39,7 @@ pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Condition
         }
     }
     let results =
-        each(&motions, &variants, progress, |motion, variant| run_loop_before::<Decisions>(motion, variant, conditions))?;
+        each(&motions, &variants, progress, |motion, variant| run_loop_observed::<Decisions>(motion, variant, conditions))?;
     let mut report = Report::new("decisions", "Decision quality");
     report.paragraph(&format!(
         "Motions: {} one-cycle sine and cosine pulses (ω/p 1.5 to 6, peaks of 1.5 to 4 uplift thresholds){}.\n\nEq. 10 predicted at 2 kHz, R = 2 m, α = 10°, σ = 0.5, among blocks that stand, against Eq. 10 on the true motion. Wrong: share of the rocking \
