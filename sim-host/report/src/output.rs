@@ -30,6 +30,7 @@ pub use formats::{Formats, FormatsError};
 pub use same_file::{is_at, is_standard_output};
 pub use subject::{Digest, Subject, difference};
 pub use summary::{Maker, SCHEMA_VERSION, Summary, VERSION, Versioned};
+pub use table::RowTaker;
 use target::Written;
 pub use target::{claim_file, open_stream, remove_unfinished};
 

@@ -5,16 +5,15 @@ use std::time::Instant;
 
 use clap::Args;
 use rayon::ThreadPool;
-use rayon::prelude::*;
 use serde::Serialize;
+use sprag_report::columns::Column;
 use sprag_report::heading::of_scene;
 use sprag_report::output::{ResultFolder, Subject};
 use sprag_report::plot::{FigureTitle, LoopTrace, loop_figure};
 use sprag_report::progress::Progress;
-use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
-use sprag_sim::closed_loop::decisions::{DecisionReport, Decisions};
+use sprag_sim::closed_loop::decisions::Decisions;
 use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
 use sprag_sim::closed_loop::run::Ending;
@@ -30,7 +29,7 @@ use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
-use super::specimens::{SPECIMENS, scatter};
+use super::specimens::{SPECIMENS, Specimen, columns, in_turn, monte_carlo};
 use super::thread_arguments::ThreadArguments;
 
 /// Run the controller of a scene in closed loop.
@@ -88,10 +87,20 @@ impl Run for LoopArguments {
             _ => self.accuracy.run(context, run)?,
         };
         let warnings = context.warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)));
-        let specimens = self.monte_carlo.map(|count| monte_carlo(&pool, &desk, &mut reports, count, interrupt)).transpose()?;
         let mut report = Report::new("loop", &folder, &self.output)?;
-        if let Some(table) = specimens {
-            report.table("monte_carlo", &table)?;
+        if let Some(count) = self.monte_carlo {
+            let [switches, chatter, faults] = ["switches", "chatter", "faults"].map(Column::count);
+            let more = [Column::number("wrong_share"), switches, chatter, faults];
+            report.rows_from("monte_carlo", &columns(more), |row| {
+                let name = |&index: &usize| (index, desk.scene.devices[index].name.as_str());
+                let devices: Vec<_> = desk.pairs.iter().map(name).collect();
+                let scattered =
+                    monte_carlo(&pool, (&devices, count), |index, number| specimen(&desk, index, number, interrupt), row)?;
+                for (report, of) in reports.iter_mut().zip(scattered) {
+                    report.summary.monte_carlo = Some(of.scatter);
+                }
+                Ok(())
+            })?;
         }
         let runs: Vec<LoopSummary> = reports.iter().map(|report| report.summary.clone()).collect();
         let (file, answer) = (desk.resolved(), Answer { monte_carlo: self.monte_carlo, runs: &runs });
@@ -147,41 +156,19 @@ pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {
     FigureTitle { text, conditions: of_scene(scene) }
 }
 
-/// One specimen of the sensors.
-struct Specimen {
-    seed: u64,
-    outcome: Outcome,
-    peak: f64,
-    decisions: DecisionReport,
-    faults: usize,
-}
-
-/// Runs the first `count` specimens with pair `index`; `done` hears of each.
-fn specimens(
-    pool: &ThreadPool,
-    desk: &LoopScene,
-    index: usize,
-    count: usize,
-    interrupt: &Interrupt,
-    done: impl Fn() + Sync,
-) -> anyhow::Result<Vec<Specimen>> {
-    let alpha = desk.scene.block.slenderness();
-    let one = |number: u64| {
-        let seed = desk.controller.sensors.seed().wrapping_add(number);
-        let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
-        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
-        done();
-        let peak = extremes.peaks.rotation / alpha;
-        ending.map(|Ending { motion, faults, .. }| Specimen {
-            seed,
-            outcome: Outcome::of(&motion, &extremes.peaks),
-            peak,
-            decisions: decisions.report(),
-            faults: faults.len(),
-        })
-    };
-    let runs: Vec<_> = pool.install(|| (0..count as u64).into_par_iter().map(one).collect());
-    runs.into_iter().map(|run| run.map_err(|failure| failed(desk, index, failure))).collect()
+/// The pair `index` with the seed of its sensors that comes `number` places after that of the scene.
+fn specimen(desk: &LoopScene, index: usize, number: u64, interrupt: &Interrupt) -> anyhow::Result<Specimen<4>> {
+    let seed = desk.controller.sensors.seed().wrapping_add(number);
+    let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
+    let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
+    let Ending { motion, faults, .. } = ending.map_err(|failure| failed(desk, index, failure))?;
+    let decisions = decisions.report();
+    Ok(Specimen {
+        seed,
+        outcome: Outcome::of(&motion, &extremes.peaks),
+        peak: Some(extremes.peaks.rotation / desk.scene.block.slenderness()),
+        more: [decisions.wrong_share.into(), decisions.switches.into(), decisions.chatter.into(), faults.len().into()],
+    })
 }
 
 /// Specimens of a pair and a thread that are tried to learn what all of them take.
@@ -201,45 +188,10 @@ fn sample(
     let some = count.get().min(SAMPLE * pool.current_num_threads());
     let start = Instant::now();
     for &index in &desk.pairs {
-        specimens(pool, &desk, index, some, interrupt, || ())?;
+        in_turn(pool, some, |number| specimen(&desk, index, number, interrupt), |_| Ok(()))?;
     }
     let each = start.elapsed().as_secs_f64() / some as f64;
     let errors = reports.iter().filter_map(|report| Some(report.summary.error?.estimate.relative(report.summary.peak_rotation)));
     let error = errors.fold(0.0, f64::max);
     Ok(budget::Sample { seconds: loops.as_secs_f64() + count.get() as f64 * each, error, of: "the loop itself" })
-}
-
-/// Runs `count` specimens of the sensors, puts quantiles into the reports, and returns the table of all.
-fn monte_carlo(
-    pool: &ThreadPool,
-    desk: &LoopScene,
-    reports: &mut [LoopReport],
-    count: NonZeroUsize,
-    interrupt: &Interrupt,
-) -> anyhow::Result<TextTable> {
-    let pairs = &desk.pairs;
-    let progress = Progress::new("specimens");
-    progress.begin((count.get() * pairs.len()) as u64);
-    let mut table =
-        TextTable::new(1, ["device", "seed", "outcome", "peak_rotation", "wrong_share", "switches", "chatter", "faults"]);
-    for (report, &index) in reports.iter_mut().zip(pairs) {
-        let runs = specimens(pool, desk, index, count.get(), interrupt, || progress.step())?;
-        let mut peaks = Vec::new();
-        for Specimen { seed, outcome, peak, decisions, faults } in runs {
-            peaks.extend(Some(peak).filter(|_| !outcome.overturned()));
-            table.row(vec![
-                report.summary.device.clone(),
-                seed.to_string(),
-                outcome.to_string(),
-                peak.to_string(),
-                decisions.wrong_share.to_string(),
-                decisions.switches.to_string(),
-                decisions.chatter.to_string(),
-                faults.to_string(),
-            ]);
-        }
-        report.summary.monte_carlo = Some(scatter(count, &peaks));
-    }
-    progress.finish();
-    Ok(table)
 }

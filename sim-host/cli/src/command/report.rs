@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sprag_report::columns::{Column, Table, metadata_of};
-use sprag_report::output::{Formats, Maker, OutputError, Results, SCHEMA_VERSION, Subject, Summary, VERSION};
+use sprag_report::output::{Formats, Maker, OutputError, Results, RowTaker, SCHEMA_VERSION, Subject, Summary, VERSION};
 use sprag_report::plot::PlotError;
 use sprag_report::progress::Progress;
 use sprag_sim::record::RecordSummary;
@@ -28,7 +28,7 @@ pub struct Report {
     text: String,
     notes: Vec<String>,
     completion: Completion,
-    drawing: Progress,
+    drawing: Option<Progress>,
 }
 
 impl Report {
@@ -48,7 +48,7 @@ impl Report {
             text: String::new(),
             notes: Vec::new(),
             completion: Completion::Complete,
-            drawing: Progress::uncounted("drawing and writing results"),
+            drawing: Some(drawing()),
         })
     }
 
@@ -114,6 +114,23 @@ impl Report {
     /// [`OutputError`].
     pub fn table(&mut self, name: &str, table: &dyn Table) -> Result<(), OutputError> {
         self.results.add_table(&self.folder, name, table, &self.made_by, self.formats)
+    }
+
+    /// Writes a table as CSV as its rows come from `fill`, which shows itself how far it is.
+    ///
+    /// # Errors
+    /// Those of `fill`, and [`OutputError`].
+    pub fn rows_from(
+        &mut self,
+        name: &str,
+        columns: &[Column],
+        fill: impl FnOnce(&mut RowTaker<'_>) -> anyhow::Result<()>,
+    ) -> anyhow::Result<()> {
+        self.drawing = None;
+        let csv = self.folder.join(format!("{name}.csv"));
+        self.results.add_rows(&csv, columns, fill)?;
+        self.drawing = Some(drawing());
+        Ok(())
     }
 
     /// Writes a table whose rows are at `csv` in the other formats.
@@ -193,6 +210,10 @@ impl Report {
         self.notes.iter().for_each(|line| context.note(line));
         Ok(self.completion)
     }
+}
+
+fn drawing() -> Progress {
+    Progress::uncounted("drawing and writing results")
 }
 
 /// A scene as resolved.

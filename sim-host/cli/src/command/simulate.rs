@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 
 use clap::Args;
 use serde::Serialize;
+use sprag_report::columns::Column;
 use sprag_report::heading::title;
 use sprag_report::output::{ResultFolder, Subject};
 use sprag_report::plot::{energy_figure, history_figure};
@@ -23,7 +24,7 @@ use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
-use super::specimens::{self, SPECIMENS, Scattered, monte_carlo};
+use super::specimens::{self, SPECIMENS, Scattered, Specimen, monte_carlo};
 use super::thread_arguments::ThreadArguments;
 
 /// Simulate a scene: every device under the same ground motion.
@@ -71,15 +72,17 @@ impl Run for SimulateArguments {
             self.accuracy.run(context, |change| simulated(self, change, &mut folder, interrupt))?;
         warnings.extend(context.warned(warning_lines(&ground.records)));
         let pool = self.threads.pool()?;
-        let specimens = self.monte_carlo.map(|count| monte_carlo(&pool, (&scene, &ground), count, interrupt)).transpose()?;
         let mut report = Report::new("simulate", &folder, &self.output)?;
-        let scattered = match &specimens {
-            Some((table, scattered)) => {
-                report.table("monte_carlo", table)?;
-                Some(&scattered[..])
-            }
-            None => None,
-        };
+        let mut scattered = None;
+        if let Some(count) = self.monte_carlo {
+            report.rows_from("monte_carlo", &specimens::columns([Column::count("impacts")]), |row| {
+                let devices: Vec<_> = scene.devices.iter().map(|device| device.name.as_str()).enumerate().collect();
+                let one = |index, number| specimen((&scene, &ground), index, number, interrupt);
+                scattered = Some(monte_carlo(&pool, (&devices, count), one, row)?);
+                Ok(())
+            })?;
+        }
+        let scattered = scattered.as_deref();
         let histories: Vec<History> = runs.iter_mut().map(|run| std::mem::take(&mut run.history)).collect();
         let input = SceneInput { scene: &scene.file };
         report.summary(input, &ground.records, &warnings, &subject, Answer { monte_carlo: scattered, runs: &runs })?;
@@ -154,6 +157,20 @@ fn simulated(
     folder.open(&claim)?;
     let runs = simulate(&scene, &ground, interrupt)?;
     Ok(Simulated { scene, ground, subject: claim.subject, runs })
+}
+
+/// Device `index` with the seed of its impacts that comes `number` places after that of the scene.
+fn specimen(
+    (scene, ground): (&Scene, &GroundMotions),
+    index: usize,
+    number: u64,
+    interrupt: &Interrupt,
+) -> anyhow::Result<Specimen<1>> {
+    let mut alone = scene.only(index);
+    let seed = scene.file.block.scatter().seed.wrapping_add(number);
+    alone.file.block.restitution_seed = Some(seed);
+    let run = simulate(&alone, ground, interrupt)?.swap_remove(0);
+    Ok(Specimen { seed, outcome: run.outcome, peak: run.peak_rotation, more: [run.impacts.into()] })
 }
 
 /// The friction that impacts and jolts need under the toe, device by device, where nobody has said how much there is.

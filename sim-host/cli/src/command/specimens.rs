@@ -1,18 +1,17 @@
-//! Specimens of a block whose impacts differ: a scene with one seed after the other (`sprag simulate --monte-carlo`).
+//! Specimens of one scene that differ by their seed (`--monte-carlo`): run in parallel, written as they come.
 
 use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 
 use rayon::ThreadPool;
-use rayon::prelude::*;
 use serde::Serialize;
+use sprag_report::columns::{Column, Value};
+use sprag_report::long_run::in_order::in_order;
+use sprag_report::output::RowTaker;
 use sprag_report::progress::Progress;
-use sprag_report::text_table::TextTable;
-use sprag_sim::interrupt::Interrupt;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::Scene;
-use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::scatter::Scatter;
-use sprag_sim::simulation::simulate;
 use sprag_studies::statistics::quantile;
 
 /// The most specimens of a run.
@@ -25,8 +24,9 @@ pub const SPECIMENS: RangeInclusive<NonZeroUsize> = NonZeroUsize::MIN..=MOST_SPE
 #[derive(Clone, Debug, Serialize)]
 pub struct Scattered {
     device: String,
+    /// What they come to.
     #[serde(flatten)]
-    scatter: Scatter,
+    pub scatter: Scatter,
 }
 
 impl Scattered {
@@ -36,18 +36,6 @@ impl Scattered {
         let number = |value: &Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
         let peaks = [peak_rotation_05, peak_rotation_median, peak_rotation_95].map(number).join(" / ");
         format!("{}: {specimens} specimens, {overturned} overturned, peak θ/α {peaks} (5, 50, 95 %)", self.device)
-    }
-}
-
-/// Outcomes and quantiles of specimens; those that overturn have no peak.
-pub fn scatter(specimens: NonZeroUsize, peaks: &[f64]) -> Scatter {
-    let at = |share: f64| quantile(peaks, share).filter(|value| value.is_finite());
-    Scatter {
-        specimens: specimens.get(),
-        overturned: specimens.get() - peaks.len(),
-        peak_rotation_05: at(0.05),
-        peak_rotation_median: at(0.5),
-        peak_rotation_95: at(0.95),
     }
 }
 
@@ -62,43 +50,69 @@ pub fn check(scene: &Scene) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Runs every device of `scene` with `count` seeds of its impacts, from that of the scene on, and returns the table of all and what those of
-/// each device come to.
+/// A specimen that was run, with more of its row than outcome and peak.
+pub struct Specimen<const MORE: usize> {
+    /// Its seed.
+    pub seed: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// max |θ|/α, where it is known.
+    pub peak: Option<f64>,
+    /// Values of the further columns.
+    pub more: [Value<'static>; MORE],
+}
+
+/// Columns of a table of specimens, of which `more` are the last.
+pub fn columns<const MORE: usize>(more: [Column; MORE]) -> Vec<Column> {
+    let first = [Column::text("device"), Column::count("seed"), Column::text("outcome")];
+    first.into_iter().chain([Column::number("peak_rotation").or_nothing()]).chain(more).collect()
+}
+
+/// Runs `one` for the numbers from 0 up to `count` on the threads of `pool`, and takes what comes out in order.
 ///
 /// # Errors
-/// Those of [`simulate`].
-pub fn monte_carlo(
+/// The first error of `one` or `take`.
+pub fn in_turn<R: Send>(
     pool: &ThreadPool,
-    (scene, ground): (&Scene, &GroundMotions),
-    count: NonZeroUsize,
-    interrupt: &Interrupt,
-) -> anyhow::Result<(TextTable, Vec<Scattered>)> {
-    let first = scene.file.block.scatter();
+    count: usize,
+    one: impl Fn(u64) -> anyhow::Result<R> + Sync,
+    take: impl FnMut(R) -> anyhow::Result<()> + Send,
+) -> anyhow::Result<()> {
+    pool.install(|| in_order(0..count, 1, |number| one(number.start as u64).map(Some), take)).map(drop)
+}
+
+/// Runs `one` for `count` specimens of each device, given by its index and name, and gives their rows to `row` as they come. What the
+/// specimens of each device come to; those that overturn have no peak.
+///
+/// # Errors
+/// The first error of `one` or `row`.
+pub fn monte_carlo<const MORE: usize>(
+    pool: &ThreadPool,
+    (devices, count): (&[(usize, &str)], NonZeroUsize),
+    one: impl Fn(usize, u64) -> anyhow::Result<Specimen<MORE>> + Sync,
+    row: &mut RowTaker<'_>,
+) -> anyhow::Result<Vec<Scattered>> {
     let progress = Progress::new("specimens");
-    progress.begin((count.get() * scene.devices.len()) as u64);
-    let mut table = TextTable::new(1, ["device", "seed", "outcome", "peak_rotation", "impacts"]);
+    progress.begin((count.get() * devices.len()) as u64);
     let mut scattered = Vec::new();
-    for index in 0..scene.devices.len() {
-        let alone = scene.only(index);
-        let one = |number: u64| {
-            let mut specimen = alone.clone();
-            let seed = first.seed.wrapping_add(number);
-            specimen.file.block.restitution_seed = Some(seed);
-            let run = simulate(&specimen, ground, interrupt).map(|mut runs| runs.swap_remove(0));
-            progress.step();
-            // Not the run: with its history it would be kept until all are done.
-            run.map(|run| (seed, run.outcome, run.peak_rotation, run.impacts))
-        };
-        let runs: Vec<_> = pool.install(|| (0..count.get() as u64).into_par_iter().map(one).collect::<Result<_, _>>())?;
-        let device = scene.devices[index].name.clone();
+    for &(index, device) in devices {
         let mut peaks = Vec::new();
-        for (seed, outcome, peak, impacts) in runs {
-            peaks.extend(peak);
-            let peak = peak.map(|peak| peak.to_string()).unwrap_or_default();
-            table.row(vec![device.clone(), seed.to_string(), outcome.to_string(), peak, impacts.to_string()]);
-        }
-        scattered.push(Scattered { device, scatter: scatter(count, &peaks) });
+        let run = |number| one(index, number).inspect(|_| progress.step());
+        in_turn(pool, count.get(), run, |Specimen { seed, outcome, peak, more }| {
+            peaks.extend(peak.filter(|_| !outcome.overturned()));
+            let outcome = outcome.to_string();
+            let first = [device.into(), seed.into(), outcome.as_str().into(), peak.map_or(Value::Nothing, Value::Number)];
+            Ok(row(&[&first[..], &more].concat())?)
+        })?;
+        let at = |share: f64| quantile(&peaks, share).filter(|value| value.is_finite());
+        let scatter = Scatter {
+            specimens: count.get(),
+            overturned: count.get() - peaks.len(),
+            peak_rotation_05: at(0.05),
+            peak_rotation_median: at(0.5),
+            peak_rotation_95: at(0.95),
+        };
+        scattered.push(Scattered { device: device.to_owned(), scatter });
     }
-    progress.finish();
-    Ok((table, scattered))
+    Ok(scattered)
 }

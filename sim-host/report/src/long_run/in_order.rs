@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::progress::Progress;
+
 /// Tasks a thread that are in work at one time: enough that no thread waits long for the last of them, and memory stays small.
 const WINDOW: usize = 64;
 
@@ -38,6 +40,29 @@ pub fn in_order<T: Send, E: Send>(
         start = end;
     }
     Ok(true)
+}
+
+/// What `work` makes of each of `jobs`, on rayon's threads and in their order; `progress` hears of each.
+///
+/// # Errors
+/// The first error by order, not by time.
+pub fn all_in_order<'j, J: Sync, R: Send, E: Send>(
+    jobs: &'j [J],
+    progress: &Progress,
+    work: impl Fn(&'j J) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    progress.begin(jobs.len() as u64);
+    let mut results = Vec::with_capacity(jobs.len());
+    let one = |place: Range<usize>| {
+        let result = jobs[place].iter().map(&work).collect::<Result<Vec<R>, E>>()?;
+        progress.step();
+        Ok(Some(result))
+    };
+    in_order(0..jobs.len(), 1, one, |result| {
+        results.extend(result);
+        Ok(())
+    })?;
+    Ok(results)
 }
 
 #[cfg(test)]
@@ -79,5 +104,13 @@ mod tests {
         taken.store(0, Ordering::Relaxed);
         assert_eq!(in_order(0..1000, 10, |rows| if rows.start == 300 { Err("no") } else { Ok(Some(rows)) }, take), Err("no"));
         assert_eq!(taken.load(Ordering::Relaxed), 300);
+    }
+
+    #[test]
+    fn of_many_errors_the_first_by_order_is_given() {
+        let jobs: Vec<u32> = (0..5000).collect();
+        let progress = Progress::new("jobs");
+        assert_eq!(all_in_order::<_, _, ()>(&jobs, &progress, |job| Ok(2 * job)), Ok((0..5000).map(|job| 2 * job).collect()));
+        assert_eq!(all_in_order(&jobs, &progress, |&job| if job % 1000 == 77 { Err(job) } else { Ok(job) }), Err(77));
     }
 }

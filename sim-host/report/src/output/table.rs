@@ -3,7 +3,12 @@
 use std::path::Path;
 
 use super::{Formats, OutputError, Results};
-use crate::columns::{Column, Metadata, Table, parquet_of_csv, write_csv, write_parquet};
+use crate::columns::{
+    Column, CsvWriter, Metadata, RowWriter, Table, TableError, Value, parquet_of_csv, write_csv, write_parquet,
+};
+
+/// What takes the rows of a table one by one: values of its columns.
+pub type RowTaker<'a> = dyn FnMut(&[Value<'_>]) -> Result<(), OutputError> + Send + 'a;
 
 impl Results {
     /// Writes `table` to `folder` as NAME.csv and, if `formats` say so, as NAME.parquet, which carries `metadata`.
@@ -23,6 +28,25 @@ impl Results {
             self.add(&folder.join(format!("{name}.parquet")), |file| Ok(write_parquet(table, metadata, file)?))?;
         }
         Ok(())
+    }
+
+    /// Writes a table with these columns to `csv` as its rows come from `fill`.
+    ///
+    /// # Errors
+    /// Those of `fill` and of [`Results::add`].
+    pub fn add_rows<E: From<OutputError>>(
+        &mut self,
+        csv: &Path,
+        columns: &[Column],
+        fill: impl FnOnce(&mut RowTaker<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let failed = |error: TableError| OutputError::new(csv, &error.into());
+        self.add_by(csv, |file| {
+            let mut writer = CsvWriter::new(columns.to_vec(), file).map_err(failed)?;
+            fill(&mut |values| writer.row(values).map_err(failed))?;
+            writer.finish().map_err(failed)?;
+            Ok(())
+        })
     }
 
     /// Writes the finished table at `csv`, which has these columns, as Parquet beside it, as [`Results::add_table`] would have.

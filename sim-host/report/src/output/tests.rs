@@ -11,11 +11,25 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::{Claim, OutputError, ResultFolder, Results, Subject, claim_file, is_standard_output, open_stream};
+use crate::columns::{Column, RowWriter, Table, TableError};
 
 fn written(path: &Path, text: &str) -> Result<(), OutputError> {
     let mut results = Results::default();
     results.add(path, |file| file.write_all(text.as_bytes()))?;
     results.commit()
+}
+
+/// Squares from 0 up.
+struct Squares(u32);
+
+impl Table for Squares {
+    fn columns(&self) -> Vec<Column> {
+        vec![Column::count("number"), Column::number("square")]
+    }
+
+    fn rows(&self, writer: &mut dyn RowWriter) -> Result<(), TableError> {
+        (0..self.0).try_for_each(|number| writer.row(&[number.into(), f64::from(number * number).into()]))
+    }
 }
 
 fn names(folder: &Path) -> Vec<String> {
@@ -192,4 +206,25 @@ fn folders_that_stay_empty_are_removed_and_others_stay() {
     assert!(root.path().join("own").is_dir());
     let refused = open(&deep.join("map.csv/out"), false, &ours).unwrap_err();
     assert!(refused.contains("map.csv is a file, not a folder"), "{refused}");
+}
+
+#[test]
+fn a_table_whose_rows_come_one_by_one_is_the_same_and_one_that_fails_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = Squares(3000);
+    let mut results = Results::default();
+    results.add_table(folder.path(), "whole", &table, &[], "csv".parse().unwrap()).unwrap();
+    let mut add_rows = |name: &str, count: u32| {
+        results.add_rows(&folder.path().join(name), &table.columns(), |row| {
+            (0..count).try_for_each(|number| row(&[number.into(), f64::from(number * number).into()]))?;
+            if count < table.0 { row(&["text".into()]) } else { Ok(()) }
+        })
+    };
+    add_rows("rows.csv", table.0).unwrap();
+    let error = add_rows("failed.csv", 10).unwrap_err().to_string();
+    assert!(error.contains("failed.csv: cannot be written: row 11"), "{error}");
+    results.commit().unwrap();
+    assert_eq!(names(folder.path()), ["rows.csv", "whole.csv"]);
+    let [whole, rows] = ["whole.csv", "rows.csv"].map(|name| fs::read(folder.path().join(name)).unwrap());
+    assert!(!whole.is_empty() && whole == rows);
 }

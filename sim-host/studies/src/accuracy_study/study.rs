@@ -1,9 +1,9 @@
 //! Errors, wrong outcomes and times of every way to follow the motions of a scene.
 
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
+use sprag_report::long_run::in_order::{all_in_order, in_order};
 use sprag_report::progress::Progress;
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::interrupt::Interrupt;
@@ -25,6 +25,9 @@ const TIMED: (Duration, u32) = (Duration::from_millis(20), 3);
 
 /// The smallest step (in 1/p) that cells are followed with: smaller ones would take most of the time.
 const SMALLEST_STEP_OF_CELLS: f64 = 1e-3;
+
+/// Cells that a thread follows without a look at Ctrl-C.
+const CELLS_AT_ONCE: usize = 8;
 
 /// The reference: the series, as tight as f64 allows.
 const REFERENCE: Variant = Variant {
@@ -88,35 +91,26 @@ pub fn study(
     progress: &Progress,
     interrupt: &Interrupt,
 ) -> Result<Vec<Row>, StudyError> {
-    let device = |index: usize| -> Result<Device, ParameterError> {
+    let unless_interrupted = || if interrupt.is_set() { Err(StudyError::Interrupted) } else { Ok(()) };
+    let device = |index: usize| -> Result<Device, StudyError> {
         let subject = Subject::of_scene(scene, ground, index)?;
         let reference = read(&subject, &REFERENCE, &[]);
-        let grid = subject.grid(extent.cells).into_par_iter().map(|cell| {
-            let reading = read(&cell, &REFERENCE, &[]);
-            (cell, reading)
-        });
-        Ok(Device { grid: grid.collect(), reference, subject })
+        let exact = |cell: &Subject| unless_interrupted().map(|()| (cell.clone(), read(cell, &REFERENCE, &[])));
+        let grid = all_in_order(&subject.grid(extent.cells), progress, exact)?;
+        Ok(Device { subject, reference, grid })
     };
     let devices = (0..scene.devices.len()).map(device).collect::<Result<Vec<_>, _>>()?;
     let closed_form = devices.iter().all(|device| device.subject.has_closed_form());
     let variants = variants(closed_form, extent.smallest_step);
-    progress.begin((devices.len() * variants.len() * 2) as u64);
     let work: Vec<(usize, Variant)> =
         (0..devices.len()).flat_map(|device| variants.iter().map(move |&variant| (device, variant))).collect();
-    let row = |&(index, variant): &(usize, Variant)| {
-        if interrupt.is_set() {
-            return Err(StudyError::Interrupted);
-        }
-        let row = devices[index].row(index, variant);
-        progress.step();
-        Ok(row)
-    };
-    let mut rows = work.par_iter().map(row).collect::<Result<Vec<Row>, StudyError>>()?;
+    let row = |&(index, variant): &(usize, Variant)| devices[index].row(index, variant, interrupt);
+    // Those that are timed below.
+    progress.begin(work.len() as u64);
+    let mut rows = all_in_order(&work, progress, row)?;
     // One after the other, so that they do not take each other's time.
     for row in &mut rows {
-        if interrupt.is_set() {
-            return Err(StudyError::Interrupted);
-        }
+        unless_interrupted()?;
         let device = &devices[row.device];
         row.nanoseconds = device.nanoseconds(&row.variant);
         let structure = &device.subject.structure;
@@ -128,26 +122,40 @@ pub fn study(
 }
 
 impl Device {
-    fn row(&self, index: usize, variant: Variant) -> Row {
+    fn row(&self, index: usize, variant: Variant, interrupt: &Interrupt) -> Result<Row, StudyError> {
         let end = self.subject.end();
         let times: Vec<f64> = (1..INSTANTS).map(|instant| end * instant as f64 / INSTANTS as f64).collect();
         let found = read(&self.subject, &variant, &times);
         let outcome_right = found.outcome == self.reference.outcome;
         let stands = outcome_right && found.outcome.is_some_and(|outcome| !outcome.overturned());
         let counted = !self.grid.is_empty() && !matches!(variant.setting, Setting::Step(step) if step < SMALLEST_STEP_OF_CELLS);
-        let wrong = || self.grid.par_iter().filter(|(cell, exact)| read(cell, &variant, &[]).outcome != exact.outcome).count();
-        Row {
+        let wrong_share = if counted { Some(self.wrong(&variant, interrupt)? as f64 / self.grid.len() as f64) } else { None };
+        Ok(Row {
             device: index,
             variant,
             outcome_right,
             peak_error: stands.then(|| relative(found.peak, self.reference.peak)),
             history_error: stands.then(|| self.history_error(&found)),
-            wrong_share: counted.then(|| wrong() as f64 / self.grid.len() as f64),
+            wrong_share,
             steps_per_second: found.steps as f64 / end,
             nanoseconds: 0.0,
             board: None,
             on_front: false,
-        }
+        })
+    }
+
+    /// Cells of which `variant` gives another outcome.
+    fn wrong(&self, variant: &Variant, interrupt: &Interrupt) -> Result<usize, StudyError> {
+        let mut wrong = 0;
+        let of = |cells: Range<usize>| -> Result<Option<usize>, StudyError> {
+            let differs = |(cell, exact): &&(Subject, Reading)| read(cell, variant, &[]).outcome != exact.outcome;
+            Ok((!interrupt.is_set()).then(|| self.grid[cells].iter().filter(differs).count()))
+        };
+        let whole = in_order(0..self.grid.len(), CELLS_AT_ONCE, of, |count| {
+            wrong += count;
+            Ok(())
+        })?;
+        if whole { Ok(wrong) } else { Err(StudyError::Interrupted) }
     }
 
     /// max |Δθ|/α at the instants that `found` has.

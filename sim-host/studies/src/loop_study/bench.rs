@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
-use rayon::prelude::*;
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::progress::Progress;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
@@ -221,31 +221,10 @@ pub fn run_ideal(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>
     })
 }
 
-/// Does `work` for every one of `jobs`, in parallel and in their order.
-///
-/// # Errors
-/// The first error by order, not by time.
-pub fn all<J: Sync, R: Send>(
-    jobs: &[J],
-    progress: &Progress,
-    work: impl Fn(&J) -> Result<R, StudyError> + Sync,
-) -> Result<Vec<R>, StudyError> {
-    progress.begin(jobs.len() as u64);
-    let results: Vec<Result<R, StudyError>> = jobs
-        .par_iter()
-        .map(|job| {
-            let result = work(job);
-            progress.step();
-            result
-        })
-        .collect();
-    results.into_iter().collect()
-}
-
 /// Does `work` for every pair of a motion and a variant, in parallel; results by variant, then by motion.
 ///
 /// # Errors
-/// The errors of [`all`].
+/// The first error by order, not by time.
 pub fn each<R: Send>(
     motions: &[Motion],
     variants: &[Variant],
@@ -253,6 +232,6 @@ pub fn each<R: Send>(
     work: impl Fn(&Motion, &Variant) -> Result<R, StudyError> + Sync,
 ) -> Result<Vec<Vec<R>>, StudyError> {
     let jobs: Vec<_> = variants.iter().flat_map(|variant| motions.iter().map(move |motion| (motion, variant))).collect();
-    let mut results = all(&jobs, progress, |(motion, variant)| work(motion, variant))?.into_iter();
+    let mut results = all_in_order(&jobs, progress, |(motion, variant)| work(motion, variant))?.into_iter();
     Ok(variants.iter().map(|_| results.by_ref().take(motions.len()).collect()).collect())
 }

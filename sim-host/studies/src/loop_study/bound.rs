@@ -1,11 +1,12 @@
 //! How much of what is possible each clutch law does: the laws between the plain devices and a law that knew the ground motion beforehand.
 
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::plot::{CellMap, CellMaps, Class, Scale, cell_map_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_sim::clairvoyant::Grid;
 
-use super::bench::{Conditions, StudyError, all, with_loop};
+use super::bench::{Conditions, StudyError, with_loop};
 use super::law_settings::{SLENDERNESS_DEG, Setting};
 use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families};
 use super::motion::{Family, Motion, Records, and_records};
@@ -46,7 +47,7 @@ fn fates(bench: &Bench<'_>, kinds: &[Kind], known: Option<&[Vec<Fate>]>) -> Resu
     let known: Option<Vec<&Fate>> = known.map(|known| known.iter().flatten().collect());
     let in_kinds = kinds.iter().flat_map(|kind| kind.motions.iter().enumerate());
     let jobs: Vec<(usize, usize, &Motion)> = in_kinds.enumerate().map(|(job, (index, motion))| (job, index, motion)).collect();
-    let work = |&(job, index, motion): &(usize, usize, &Motion)| {
+    let work = |&(job, index, motion): &(usize, usize, &Motion)| -> Result<Fate, StudyError> {
         let laws = LAWS.iter().map(|&law| {
             let Run { outcome, peak, .. } = bench.run(law, motion, index % bench.specimens)?;
             Ok(if outcome.overturned() { OVERTURNED } else { peak })
@@ -64,7 +65,7 @@ fn fates(bench: &Bench<'_>, kinds: &[Kind], known: Option<&[Vec<Fate>]>) -> Resu
         let (found, played) = bound.map_or((None, None), |bound| (bound.found.peak, bound.played));
         Ok(Fate { laws, found: found.unwrap_or(OVERTURNED), played: played.unwrap_or(OVERTURNED) })
     };
-    let mut found = all(&jobs, bench.progress, work)?.into_iter();
+    let mut found = all_in_order(&jobs, bench.progress, work)?.into_iter();
     Ok(kinds.iter().map(|kind| found.by_ref().take(kind.motions.len()).collect()).collect())
 }
 

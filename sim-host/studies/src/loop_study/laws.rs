@@ -1,12 +1,13 @@
 //! Beyond Eq. 10: which law overturns fewest blocks, under which motions, in the ideal model and with clutches and sensors as they are.
 
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::plot::{Cell, CellMap, CellMaps, Class, Scale, cell_map_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::scene::controller::LawName;
 
-use super::bench::{Conditions, StudyError, Variant, all, run_ideal, run_loop};
+use super::bench::{Conditions, StudyError, Variant, run_ideal, run_loop};
 use super::law_settings::{IDEAL, SLENDERNESS_DEG, Setting};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
@@ -128,7 +129,7 @@ impl Bench<'_> {
             .flat_map(|(law, kind)| kind.motions.iter().enumerate().map(move |(index, motion)| (law, motion, index)))
             .collect();
         let work = |&(law, motion, index): &(LawName, &Motion, usize)| self.run(law, motion, index % self.specimens);
-        let mut runs = all(&jobs, self.progress, work)?.into_iter();
+        let mut runs = all_in_order(&jobs, self.progress, work)?.into_iter();
         let mut of = |kind: &Kind| runs.by_ref().take(kind.motions.len()).collect::<Vec<Run>>();
         Ok(kinds.iter().map(|kind| LAWS.iter().map(|_| of(kind)).collect()).collect())
     }

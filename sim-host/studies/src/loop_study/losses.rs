@@ -1,5 +1,6 @@
 //! What a sensor that is lost in mid-swing costs, and what the rungs of the safe state below cost.
 
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::TextTable;
 use sprag_shared::observers::outcome::Outcome;
@@ -46,7 +47,7 @@ pub fn losses(motions: &[Motion], progress: &Progress, conditions: &Conditions<'
     let numbers: Vec<usize> = (0..motions.len()).collect();
     let mut compared = Vec::new();
     for ((_, failing, _), variant) in LOSSES.iter().zip(&variants) {
-        let jobs = super::bench::all(&numbers, progress, |&number| {
+        let jobs = all_in_order(&numbers, progress, |&number| {
             peak(&motions[number], variant, Some(Injected::new(*failing, whole[0][number].0)), conditions)
         })?;
         let mut comparison = Comparison { motions: motions.len(), ..Comparison::default() };

@@ -1,11 +1,12 @@
 //! Robustness: what delay, noise, rate and wrong beliefs cost, and where the loop breaks.
 
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::plot::{Chart, ChartPanel, Line, Scale, chart_figure};
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{self, TextTable};
 use sprag_shared::observers::outcome::Outcome;
 
-use super::bench::{Conditions, EQUATION_10, StudyError, Variant, all, block_of, each, run_ideal, run_loop};
+use super::bench::{Conditions, EQUATION_10, StudyError, Variant, block_of, each, run_ideal, run_loop};
 use super::motion::{Motion, Records, and_records, grid};
 use super::practice::{COLUMNS, Comparison, ROCKS};
 use super::report::Report;
@@ -131,7 +132,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
     let mut kinds = Vec::new();
     for (name, motions) in [("pulses", pulses), ("recorded motions", recorded)] {
         let ideal = |motion: &Motion| run_ideal(motion, &Variant::new("ideal", &[]), conditions);
-        let ideals = all(&motions, progress, ideal)?;
+        let ideals = all_in_order(&motions, progress, ideal)?;
         kinds.extend((!motions.is_empty()).then_some(Kind { name, motions, ideals }));
     }
     let plain: Vec<Variant> =

@@ -2,6 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use sprag_report::long_run::in_order::all_in_order;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_shared::control::law::any_law::ClutchLaw;
@@ -11,7 +12,7 @@ use sprag_shared::control::law::{GatedTable, SignTable};
 use sprag_shared::math::square_root;
 use sprag_sim::clairvoyant::{Followed, FullState, Shaking};
 
-use super::bench::{Conditions, StudyError, all, with_loop};
+use super::bench::{Conditions, StudyError, with_loop};
 use super::law_settings::Setting;
 use super::laws::{AMPLITUDES, FREQUENCIES};
 use super::motion::{Family, Motion, Records, and_records, between};
@@ -202,7 +203,7 @@ fn search(
         let work = |weights: &Weights| {
             if conditions.interrupt.is_set() { Err(StudyError::Interrupted) } else { Ok((cost(grounds, law(weights)), *weights)) }
         };
-        let mut found = all(&laws, progress, work)?;
+        let mut found = all_in_order(&laws, progress, work)?;
         found.extend(best);
         found.sort_by(|one, other| one.0.total_cmp(&other.0));
         best = found.first().copied();
@@ -258,11 +259,12 @@ pub fn train(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
         let shake = |(motion, size): &(Motion, f64)| {
             with_loop(motion, &variants[0], conditions, |task| Ok((clutches[0].shaking(&task.ground.horizontal), *size)))
         };
-        halves.push(half.iter().map(|kind| all(kind, progress, shake)).collect::<Result<Vec<Vec<Sized>>, _>>()?);
+        halves.push(half.iter().map(|kind| all_in_order(kind, progress, shake)).collect::<Result<Vec<Vec<Sized>>, _>>()?);
     }
     let mut grounds = Vec::new();
     for half in &halves {
-        grounds.push(all(&clutches.iter().collect::<Vec<_>>(), progress, |&clutch| Ok(Ground::new(clutch, half)))?);
+        let ground = |clutch| Ok::<_, StudyError>(Ground::new(clutch, half));
+        grounds.push(all_in_order(&clutches, progress, ground)?);
     }
     let mut searches = Vec::new();
     for seed in 1..=SEARCHES {
