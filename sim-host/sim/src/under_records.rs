@@ -7,8 +7,10 @@ use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::observers::checks::Checks;
 
+use crate::record::Record;
 use crate::scene::Scene;
 use crate::scene::checks::ChecksTable;
+use crate::scene::ground::GroundError;
 
 /// A scene of one device, and which lanes know it.
 #[derive(Clone, Debug)]
@@ -54,6 +56,33 @@ pub struct Shaking<'a> {
     pub level: (&'a Samples, f64),
     /// Vertical motion; the scene has one too.
     pub vertical: Option<(&'a Samples, f64)>,
+}
+
+/// The only record that shakes the block of a scene, and the only one that lifts it at the same time, if any does.
+#[derive(Clone, Debug)]
+pub struct OnlyRecords {
+    level: Samples,
+    vertical: Option<Samples>,
+}
+
+impl OnlyRecords {
+    /// Of `scene`; none where anything else moves the ground.
+    ///
+    /// # Errors
+    /// As of [`Scene::ground_motions`].
+    pub fn of(scene: &Scene) -> Result<Option<OnlyRecords>, GroundError> {
+        let samples = |(level, up): (Record, Option<Record>)| OnlyRecords {
+            level: Samples::from(&level),
+            vertical: up.map(|up| Samples::from(&up)),
+        };
+        Ok(scene.only_records()?.map(samples))
+    }
+
+    /// How they shake `scene`, which may scale them otherwise.
+    pub fn shaking(&self, scene: &Scene) -> Shaking<'_> {
+        let vertical = self.vertical.as_ref().map(|up| (up, scene.file.vertical[0].scale));
+        Shaking { level: (&self.level, scene.file.ground[0].scale), vertical }
+    }
 }
 
 impl Subject {

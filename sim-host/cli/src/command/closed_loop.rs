@@ -1,6 +1,7 @@
 //! `sprag loop`: the controller in closed loop with the plant, its sensors and its clutches.
 
 use std::num::NonZeroUsize;
+use std::ops::Range;
 use std::time::Instant;
 
 use clap::Args;
@@ -94,8 +95,8 @@ impl Run for LoopArguments {
             report.rows_from("monte_carlo", &columns(more), |row| {
                 let name = |&index: &usize| (index, desk.scene.devices[index].name.as_str());
                 let devices: Vec<_> = desk.pairs.iter().map(name).collect();
-                let scattered =
-                    monte_carlo(&pool, (&devices, count), |index, number| specimen(&desk, index, number, interrupt), row)?;
+                let one = |index, numbers| specimens(&desk, index, numbers, interrupt);
+                let scattered = monte_carlo(&pool, &devices, (count, 1), one, row)?;
                 for (report, of) in reports.iter_mut().zip(scattered) {
                     report.summary.monte_carlo = Some(of.scatter);
                 }
@@ -156,19 +157,22 @@ pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {
     FigureTitle { text, conditions: of_scene(scene) }
 }
 
-/// The pair `index` with the seed of its sensors that comes `number` places after that of the scene.
-fn specimen(desk: &LoopScene, index: usize, number: u64, interrupt: &Interrupt) -> anyhow::Result<Specimen<4>> {
-    let seed = desk.controller.sensors.seed().wrapping_add(number);
-    let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
-    let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
-    let Ending { motion, faults, .. } = ending.map_err(|failure| failed(desk, index, failure))?;
-    let decisions = decisions.report();
-    Ok(Specimen {
-        seed,
-        outcome: Outcome::of(&motion, &extremes.peaks),
-        peak: Some(extremes.peaks.rotation / desk.scene.block.slenderness()),
-        more: [decisions.wrong_share.into(), decisions.switches.into(), decisions.chatter.into(), faults.len().into()],
-    })
+/// The pair `index` with the seeds of its sensors that come `numbers` places after that of the scene.
+fn specimens(desk: &LoopScene, index: usize, numbers: Range<u64>, interrupt: &Interrupt) -> anyhow::Result<Vec<Specimen<4>>> {
+    let one = |number| {
+        let seed = desk.controller.sensors.seed().wrapping_add(number);
+        let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
+        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
+        let Ending { motion, faults, .. } = ending.map_err(|failure| failed(desk, index, failure))?;
+        let decisions = decisions.report();
+        Ok(Specimen {
+            seed,
+            outcome: Outcome::of(&motion, &extremes.peaks),
+            peak: Some(extremes.peaks.rotation / desk.scene.block.slenderness()),
+            more: [decisions.wrong_share.into(), decisions.switches.into(), decisions.chatter.into(), faults.len().into()],
+        })
+    };
+    numbers.map(one).collect()
 }
 
 /// Specimens of a pair and a thread that are tried to learn what all of them take.
@@ -188,7 +192,7 @@ fn sample(
     let some = count.get().min(SAMPLE * pool.current_num_threads());
     let start = Instant::now();
     for &index in &desk.pairs {
-        in_turn(pool, some, |number| specimen(&desk, index, number, interrupt), |_| Ok(()))?;
+        in_turn(pool, (some, 1), |numbers| specimens(&desk, index, numbers, interrupt), |_| Ok(()))?;
     }
     let each = start.elapsed().as_secs_f64() / some as f64;
     let errors = reports.iter().filter_map(|report| Some(report.summary.error?.estimate.relative(report.summary.peak_rotation)));

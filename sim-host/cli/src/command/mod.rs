@@ -25,6 +25,7 @@ pub mod example;
 pub mod explain;
 #[cfg(feature = "effects")]
 pub mod hil;
+mod impact_specimens;
 pub mod long_run_arguments;
 #[cfg(feature = "effects")]
 pub mod loop_scene;

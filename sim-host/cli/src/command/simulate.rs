@@ -17,14 +17,16 @@ use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::energy::write_energy;
 use sprag_sim::simulation::{DeviceRun, simulate};
+use sprag_sim::under_records::OnlyRecords;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
+use super::impact_specimens;
 use super::out_arguments::{OutputArguments, claim_of_scene};
 use super::record_arguments::SceneRecordArguments;
 use super::report::{Report, SceneInput};
 use super::scene_arguments::SceneArguments;
-use super::specimens::{self, SPECIMENS, Scattered, Specimen, monte_carlo};
+use super::specimens::{SPECIMENS, Scattered, columns, monte_carlo};
 use super::thread_arguments::ThreadArguments;
 
 /// Simulate a scene: every device under the same ground motion.
@@ -64,7 +66,7 @@ impl Run for SimulateArguments {
         let mut folder = self.output.folder_at(&self.scene.scene, "simulate", &self.accuracy)?;
         let asked = self.scene.load(None)?;
         if self.monte_carlo.is_some() {
-            specimens::check(&asked)?;
+            impact_specimens::check(&asked)?;
         }
         let mut warnings = context.warned(asked.warnings());
         let interrupt = context.interrupt;
@@ -75,10 +77,11 @@ impl Run for SimulateArguments {
         let mut report = Report::new("simulate", &folder, &self.output)?;
         let mut scattered = None;
         if let Some(count) = self.monte_carlo {
-            report.rows_from("monte_carlo", &specimens::columns([Column::count("impacts")]), |row| {
+            report.rows_from("monte_carlo", &columns([Column::count("impacts")]), |row| {
                 let devices: Vec<_> = scene.devices.iter().map(|device| device.name.as_str()).enumerate().collect();
-                let one = |index, number| specimen((&scene, &ground), index, number, interrupt);
-                scattered = Some(monte_carlo(&pool, (&devices, count), one, row)?);
+                let records = OnlyRecords::of(&scene)?;
+                let some = |index, numbers| impact_specimens::run((&scene, &ground), records.as_ref(), index, numbers, interrupt);
+                scattered = Some(monte_carlo(&pool, &devices, (count, impact_specimens::TOGETHER), some, row)?);
                 Ok(())
             })?;
         }
@@ -157,20 +160,6 @@ fn simulated(
     folder.open(&claim)?;
     let runs = simulate(&scene, &ground, interrupt)?;
     Ok(Simulated { scene, ground, subject: claim.subject, runs })
-}
-
-/// Device `index` with the seed of its impacts that comes `number` places after that of the scene.
-fn specimen(
-    (scene, ground): (&Scene, &GroundMotions),
-    index: usize,
-    number: u64,
-    interrupt: &Interrupt,
-) -> anyhow::Result<Specimen<1>> {
-    let mut alone = scene.only(index);
-    let seed = scene.file.block.scatter().seed.wrapping_add(number);
-    alone.file.block.restitution_seed = Some(seed);
-    let run = simulate(&alone, ground, interrupt)?.swap_remove(0);
-    Ok(Specimen { seed, outcome: run.outcome, peak: run.peak_rotation, more: [run.impacts.into()] })
 }
 
 /// The friction that impacts and jolts need under the toe, device by device, where nobody has said how much there is.

@@ -1,7 +1,7 @@
 //! Specimens of one scene that differ by their seed (`--monte-carlo`): run in parallel, written as they come.
 
 use std::num::NonZeroUsize;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
 use rayon::ThreadPool;
 use serde::Serialize;
@@ -10,7 +10,6 @@ use sprag_report::long_run::in_order::in_order;
 use sprag_report::output::RowTaker;
 use sprag_report::progress::Progress;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim::scene::Scene;
 use sprag_sim::simulation::scatter::Scatter;
 use sprag_studies::statistics::quantile;
 
@@ -39,17 +38,6 @@ impl Scattered {
     }
 }
 
-/// Says that specimens of `scene` would differ.
-///
-/// # Errors
-/// A scene whose impacts are all alike.
-pub fn check(scene: &Scene) -> anyhow::Result<()> {
-    if !scene.file.block.scatter().is_on() {
-        anyhow::bail!("--monte-carlo: every specimen would be the same; block.restitution_scatter lets impacts differ");
-    }
-    Ok(())
-}
-
 /// A specimen that was run, with more of its row than outcome and peak.
 pub struct Specimen<const MORE: usize> {
     /// Its seed.
@@ -68,28 +56,30 @@ pub fn columns<const MORE: usize>(more: [Column; MORE]) -> Vec<Column> {
     first.into_iter().chain([Column::number("peak_rotation").or_nothing()]).chain(more).collect()
 }
 
-/// Runs `one` for the numbers from 0 up to `count` on the threads of `pool`, and takes what comes out in order.
+/// Runs `some` for the numbers from 0 up to `count`, `together` at a time, on the threads of `pool`, and takes what comes out in order.
 ///
 /// # Errors
-/// The first error of `one` or `take`.
+/// The first error of `some` or `take`.
 pub fn in_turn<R: Send>(
     pool: &ThreadPool,
-    count: usize,
-    one: impl Fn(u64) -> anyhow::Result<R> + Sync,
+    (count, together): (usize, usize),
+    some: impl Fn(Range<u64>) -> anyhow::Result<R> + Sync,
     take: impl FnMut(R) -> anyhow::Result<()> + Send,
 ) -> anyhow::Result<()> {
-    pool.install(|| in_order(0..count, 1, |number| one(number.start as u64).map(Some), take)).map(drop)
+    let some = |Range { start, end }: Range<usize>| some(start as u64..end as u64).map(Some);
+    pool.install(|| in_order(0..count, together, some, take)).map(drop)
 }
 
-/// Runs `one` for `count` specimens of each device, given by its index and name, and gives their rows to `row` as they come. What the
-/// specimens of each device come to; those that overturn have no peak.
+/// Runs `some` for `count` specimens of each device, `together` at a time; it is given the index of the device, whose name is beside it, and
+/// numbers of specimens. Gives their rows to `row` as they come. What the specimens of each device come to; those that overturn have no peak.
 ///
 /// # Errors
-/// The first error of `one` or `row`.
+/// The first error of `some` or `row`.
 pub fn monte_carlo<const MORE: usize>(
     pool: &ThreadPool,
-    (devices, count): (&[(usize, &str)], NonZeroUsize),
-    one: impl Fn(usize, u64) -> anyhow::Result<Specimen<MORE>> + Sync,
+    devices: &[(usize, &str)],
+    (count, together): (NonZeroUsize, usize),
+    some: impl Fn(usize, Range<u64>) -> anyhow::Result<Vec<Specimen<MORE>>> + Sync,
     row: &mut RowTaker<'_>,
 ) -> anyhow::Result<Vec<Scattered>> {
     let progress = Progress::new("specimens");
@@ -97,12 +87,15 @@ pub fn monte_carlo<const MORE: usize>(
     let mut scattered = Vec::new();
     for &(index, device) in devices {
         let mut peaks = Vec::new();
-        let run = |number| one(index, number).inspect(|_| progress.step());
-        in_turn(pool, count.get(), run, |Specimen { seed, outcome, peak, more }| {
-            peaks.extend(peak.filter(|_| !outcome.overturned()));
-            let outcome = outcome.to_string();
-            let first = [device.into(), seed.into(), outcome.as_str().into(), peak.map_or(Value::Nothing, Value::Number)];
-            Ok(row(&[&first[..], &more].concat())?)
+        let run = |numbers| some(index, numbers).inspect(|specimens| progress.advance(specimens.len() as u64));
+        in_turn(pool, (count.get(), together), run, |specimens| {
+            for Specimen { seed, outcome, peak, more } in specimens {
+                peaks.extend(peak.filter(|_| !outcome.overturned()));
+                let outcome = outcome.to_string();
+                let first = [device.into(), seed.into(), outcome.as_str().into(), peak.map_or(Value::Nothing, Value::Number)];
+                row(&[&first[..], &more].concat())?;
+            }
+            Ok(())
         })?;
         let at = |share: f64| quantile(&peaks, share).filter(|value| value.is_finite());
         let scatter = Scatter {

@@ -1,7 +1,6 @@
 //! The cells of a map: which blocks they are.
 
 use sprag_ensemble::pulsed::PulsedBlock;
-use sprag_ensemble::shaken::Samples;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::mount::Mount;
 use toml::Table;
@@ -13,7 +12,7 @@ use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
 use crate::scene::{Scene, SceneDevice, SceneError};
-use crate::under_records::{self, Shaking};
+use crate::under_records::{self, OnlyRecords, Shaking};
 
 /// A scene with the axes of its map.
 #[derive(Clone, Debug)]
@@ -28,7 +27,7 @@ pub struct Grid {
     /// For every map, how a cell's block follows from the scene's own; none where cells are read anew as scenes.
     direct: Vec<Option<Direct>>,
     /// The record that shakes every cell, and the one that moves the ground vertically, if no axis changes more of them than their scales.
-    record: Option<(Samples, Option<Samples>)>,
+    record: Option<OnlyRecords>,
 }
 
 /// What one of the maps is of.
@@ -108,8 +107,7 @@ impl Grid {
         let fixed = |key: &str| !key.starts_with("ground.") && !key.starts_with("vertical.");
         if keys.all(|key| fixed(key) || ["ground.0.scale", "vertical.0.scale"].contains(&key)) {
             // What cannot be read is reported by the first cell.
-            let records = grid.scene.only_records().ok().flatten();
-            grid.record = records.map(|(level, up)| (Samples::from(&level), up.map(|up| Samples::from(&up))));
+            grid.record = OnlyRecords::of(&grid.scene).ok().flatten();
         }
         Ok(grid)
     }
@@ -177,9 +175,7 @@ impl Grid {
 
     /// How the record that shakes all of the map shakes `scene`, at a place of it; none if there is no such record.
     pub(super) fn shaking(&self, scene: &Scene) -> Option<Shaking<'_>> {
-        let (samples, up) = self.record.as_ref()?;
-        let vertical = up.as_ref().map(|up| (up, scene.file.vertical[0].scale));
-        Some(Shaking { level: (samples, scene.file.ground[0].scale), vertical })
+        Some(self.record.as_ref()?.shaking(scene))
     }
 
     /// The values of a cell.

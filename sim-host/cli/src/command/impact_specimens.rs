@@ -1,0 +1,64 @@
+//! Specimens of a block whose impacts differ, under the motion of its scene.
+
+use std::ops::Range;
+
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::simulation::{RunError, simulate};
+use sprag_sim::under_records::{Followed, OnlyRecords, Subject, followed};
+
+use super::specimens::Specimen;
+
+/// Says that specimens of `scene` would differ.
+///
+/// # Errors
+/// A scene whose impacts are all alike.
+pub fn check(scene: &Scene) -> anyhow::Result<()> {
+    if !scene.file.block.scatter().is_on() {
+        anyhow::bail!("--monte-carlo: every specimen would be the same; block.restitution_scatter lets impacts differ");
+    }
+    Ok(())
+}
+
+/// Specimens that one task takes: enough to keep lanes full.
+pub const TOGETHER: usize = 32;
+
+/// Device `index` with the seeds of its impacts that come `numbers` places after that of the scene: in lanes where `records` alone move the
+/// ground and lanes know the device, by the core elsewhere.
+///
+/// # Errors
+/// The first error of [`simulate`].
+pub fn run(
+    (scene, ground): (&Scene, &GroundMotions),
+    records: Option<&OnlyRecords>,
+    index: usize,
+    numbers: Range<u64>,
+    interrupt: &Interrupt,
+) -> anyhow::Result<Vec<Specimen<1>>> {
+    if interrupt.is_set() {
+        return Err(RunError::Interrupted.into());
+    }
+    let subject = |number| {
+        let mut alone = scene.only(index);
+        alone.file.block.restitution_seed = Some(scene.file.block.scatter().seed.wrapping_add(number));
+        Subject::new(alone)
+    };
+    let subjects: Vec<Subject> = numbers.map(subject).collect();
+    let shaking = |subject: &Subject| Some(records?.shaking(&subject.scene));
+    let runs: Vec<_> = subjects.iter().filter_map(|subject| Some((subject, shaking(subject)?))).collect();
+    let mut in_lanes = followed(&runs).into_iter();
+    let specimen = |Subject { scene, .. }: &Subject| {
+        let (outcome, peak, impacts) = match in_lanes.next().flatten() {
+            Some(Followed { motion, .. }) => {
+                (motion.outcome(), motion.relative_peaks(&scene.block).map(|(rotation, _)| rotation), motion.impacts)
+            }
+            None => {
+                let run = simulate(scene, ground, interrupt)?.swap_remove(0);
+                (run.outcome, run.peak_rotation, run.impacts)
+            }
+        };
+        Ok(Specimen { seed: scene.file.block.scatter().seed, outcome, peak, more: [impacts.into()] })
+    };
+    subjects.iter().map(specimen).collect()
+}
