@@ -86,16 +86,20 @@ impl Pieces {
     }
 }
 
-/// Longest step over the time in which a dashpot makes two speeds equal: Runge-Kutta steps are stable up to 2.78 of it.
-const LONGEST_OF_DASHPOTS: f64 = 0.5;
+/// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps are stable up to 2.78 of it.
+const LONGEST_OF_DECAY: f64 = 0.5;
 
-/// Rate at which the fastest dashpot of the device makes the speeds of rack and flywheel equal, 1/s.
-fn fastest_dashpot(machine: &HybridSystem<f64>) -> f64 {
+/// Longest step over that time whose ends show what is between them: (1/100)³/120 of an acceleration is less than an f32 resolves.
+const SHOWN_BY_ENDS: f64 = 0.01;
+
+/// Rate at which viscous slip, drag, bearings and rack use up speeds of block and flywheels, at most, 1/s.
+fn fastest_decay(machine: &HybridSystem<f64>) -> f64 {
     let (transmission, body) = (&machine.transmission, &machine.body);
     let parameters = &transmission.parameters;
     let arm = body.arm(&body.configuration(1.0, 0.0));
     let slip = if transmission.slips_viscously() { parameters.damping } else { 0.0 };
-    slip.max(parameters.drag) * (parameters.mobility + arm * arm)
+    let dashpots = slip.max(parameters.drag) * (parameters.mobility + arm * arm);
+    dashpots + parameters.bearing_rate + parameters.rack_viscous * arm * arm
 }
 
 fn shaking<'a>(horizontal: &'a SumSegment<f64>, vertical: Option<&'a SumSegment<f64>>) -> Shaking<'a, f64> {
@@ -118,7 +122,7 @@ pub struct Plant<'a> {
     pieces: Option<Pieces>,
     limits: Limits<f64>,
     lightest: f64,
-    /// Springs or dashpots move faster than the ends of a step show.
+    /// Springs or viscous forces move faster than the ends of a step show.
     stiff: bool,
 }
 
@@ -133,8 +137,8 @@ impl<'a> Plant<'a> {
             None => machine.at_rest(),
         };
         let block = surroundings.course.block;
-        let dashpots = fastest_dashpot(&machine);
-        let steps = (surroundings.step * dashpots / LONGEST_OF_DASHPOTS).ceil().max(1.0);
+        let decay = surroundings.step * fastest_decay(&machine);
+        let steps = (decay / LONGEST_OF_DECAY).ceil().max(1.0);
         // Rounding of a tick's ends must not make a step of its own.
         let step = surroundings.step / steps * (1.0 + 1e-9);
         let method = if surroundings.exponential {
@@ -158,7 +162,7 @@ impl<'a> Plant<'a> {
             pieces: None,
             limits: Limits { overturned: 0.0, events: MOST_EVENTS },
             lightest: surroundings.course.lightest(),
-            stiff: dashpots > 0.0 || machine.transmission.traits().springs,
+            stiff: decay > SHOWN_BY_ENDS || machine.transmission.traits().springs,
         }
     }
 
