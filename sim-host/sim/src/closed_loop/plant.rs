@@ -19,6 +19,7 @@ use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Truth;
 use crate::simulation::drive::{Course, Segmented};
+use crate::simulation::stable_step::{fastest_decay, stable_step};
 
 /// Someone who watches a plant.
 pub trait Watcher: Observer<f64> + Segmented {}
@@ -86,21 +87,8 @@ impl Pieces {
     }
 }
 
-/// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps are stable up to 2.78 of it.
-const LONGEST_OF_DECAY: f64 = 0.5;
-
-/// Longest step over that time whose ends show what is between them: (1/100)³/120 of an acceleration is less than an f32 resolves.
+/// Longest step over the time in which viscous forces use up a speed whose ends show what is between them: (1/100)³/120 of an acceleration is less than an f32 resolves.
 const SHOWN_BY_ENDS: f64 = 0.01;
-
-/// Rate at which viscous slip, drag, bearings and rack use up speeds of block and flywheels, at most, 1/s.
-fn fastest_decay(machine: &HybridSystem<f64>) -> f64 {
-    let (transmission, body) = (&machine.transmission, &machine.body);
-    let parameters = &transmission.parameters;
-    let arm = body.arm(&body.configuration(1.0, 0.0));
-    let slip = if transmission.slips_viscously() { parameters.damping } else { 0.0 };
-    let dashpots = slip.max(parameters.drag) * (parameters.mobility + arm * arm);
-    dashpots + parameters.bearing_rate + parameters.rack_viscous * arm * arm
-}
 
 fn shaking<'a>(horizontal: &'a SumSegment<f64>, vertical: Option<&'a SumSegment<f64>>) -> Shaking<'a, f64> {
     Shaking { horizontal, vertical: vertical.map(|piece| piece as _), support: None }
@@ -137,10 +125,9 @@ impl<'a> Plant<'a> {
             None => machine.at_rest(),
         };
         let block = surroundings.course.block;
-        let decay = surroundings.step * fastest_decay(&machine);
-        let steps = (decay / LONGEST_OF_DECAY).ceil().max(1.0);
+        let decay = fastest_decay(&machine);
         // Rounding of a tick's ends must not make a step of its own.
-        let step = surroundings.step / steps * (1.0 + 1e-9);
+        let step = stable_step(surroundings.step, decay) * (1.0 + 1e-9);
         let method = if surroundings.exponential {
             FixedStep { scheme: Scheme::ExponentialMidpoint, step }
         } else {
@@ -162,7 +149,7 @@ impl<'a> Plant<'a> {
             pieces: None,
             limits: Limits { overturned: 0.0, events: MOST_EVENTS },
             lightest: surroundings.course.lightest(),
-            stiff: decay > SHOWN_BY_ENDS || machine.transmission.traits().springs,
+            stiff: surroundings.step * decay > SHOWN_BY_ENDS || machine.transmission.traits().springs,
         }
     }
 

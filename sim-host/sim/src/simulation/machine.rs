@@ -8,24 +8,27 @@ use sprag_shared::motion::state::Phase;
 
 use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};
+use super::stable_step::{fastest_decay, stable_step};
 use crate::scene::accuracy::Precision;
 
 /// Runs the device of `task`.
 pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let accuracy = &task.scene.file.accuracy;
     match (accuracy.precision, task.step()) {
-        (Precision::F64, None) => follow(task, &*hybrid(Method::Adaptive(accuracy.tolerance))),
-        (Precision::F64, Some(step)) => follow(task, &*hybrid(accuracy.method.in_steps(step))),
-        (Precision::F32, step) => {
-            let step = step.unwrap_or(1e-3) as f32;
-            follow(task, &*hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep { scheme: Scheme::RungeKutta4, step })))
-        }
+        (Precision::F64, None) => follow(task, |_| hybrid(Method::Adaptive(accuracy.tolerance))),
+        (Precision::F64, Some(step)) => follow(task, |decay| hybrid(accuracy.method.in_steps(stable_step(step, decay)))),
+        (Precision::F32, step) => follow(task, |decay| {
+            let step = stable_step(step.unwrap_or(1e-3), decay) as f32;
+            hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep { scheme: Scheme::RungeKutta4, step }))
+        }),
     }
 }
 
-fn follow<S: Real>(task: &Task<'_>, method: &dyn HybridLoop<S>) -> Result<DeviceRun, Failure> {
+/// Runs the device of `task` by the method for the rate of its fastest decay (1/s).
+fn follow<S: Real>(task: &Task<'_>, method: impl FnOnce(f64) -> Box<dyn HybridLoop<S>>) -> Result<DeviceRun, Failure> {
     let structure = task.scene.structure(task.index);
     let machine: HybridSystem<S> = task.device().drivetrain.resolve(&structure, task.ground.vertical.is_some())?;
+    let method = method(fastest_decay(&machine));
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
     let mut state = match task.released() {
@@ -33,7 +36,7 @@ fn follow<S: Real>(task: &Task<'_>, method: &dyn HybridLoop<S>) -> Result<Device
         None => machine.at_rest(),
     };
     let mut watchers = task.watchers::<S>(&loaded)?;
-    task.ended(course.follow_machine(&machine, method, &mut state, &mut watchers, || !task.interrupt.is_set()))?;
+    task.ended(course.follow_machine(&machine, &*method, &mut state, &mut watchers, || !task.interrupt.is_set()))?;
     let phase = state.motion.phase;
     if phase != Phase::Overturned {
         watchers.recorder.finish(task.end(), phase == Phase::Rest);

@@ -22,6 +22,8 @@ pub mod scatter;
 #[cfg(feature = "effects")]
 mod sliding;
 pub mod sliding_report;
+#[cfg(feature = "effects")]
+pub(crate) mod stable_step;
 pub mod step_end;
 #[cfg(all(test, feature = "effects"))]
 mod support_tests;

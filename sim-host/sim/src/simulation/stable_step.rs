@@ -1,0 +1,53 @@
+//! How long a fixed step may be beside viscous forces.
+
+use sprag_shared::equation::body::Body;
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::hybrid::HybridSystem;
+
+/// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps of order 4 are stable up to 2.78 of it.
+const LONGEST: f64 = 0.5;
+
+/// Rate at which viscous slip, drag, bearings and rack of `machine` use up speeds of block and flywheels, at most, 1/s.
+pub(crate) fn fastest_decay<S: Real>(machine: &HybridSystem<S>) -> f64 {
+    let (transmission, body) = (&machine.transmission, &machine.body);
+    let parameters = &transmission.parameters;
+    let arm = body.arm(&body.configuration(S::ONE, S::ZERO));
+    let slip = if transmission.slips_viscously() { parameters.damping } else { S::ZERO };
+    let dashpots = slip.larger(parameters.drag) * (parameters.mobility + arm * arm);
+    (dashpots + parameters.bearing_rate + parameters.rack_viscous * arm * arm).to_f64()
+}
+
+/// `step` (s), or as large a whole part of it as is stable where speeds are used up at a rate of `decay` (1/s).
+pub(crate) fn stable_step(step: f64, decay: f64) -> f64 {
+    step / (step * decay / LONGEST).ceil().max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::interrupt::Interrupt;
+    use crate::scene::Scene;
+    use crate::simulation::simulate;
+
+    #[test]
+    fn fixed_steps_follow_what_fast_viscous_forces_leave_of_a_motion() {
+        let viscous = ["engagement = 'rigid', flywheel = { viscous_rate_1_s = 2.0e4 }", "inertance_corner_hz = 1000.0"];
+        let methods =
+            ["", "method = 'runge-kutta-4', step_s = 2.0e-3", "precision = 'f32', method = 'runge-kutta-4', step_s = 2.0e-3"];
+        for device in viscous {
+            let peaks = methods.map(|accuracy| {
+                let text = format!(
+                    "block = {{ size_m = 2.0, slenderness_deg = 12.0 }}
+                    device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {device} }}]
+                    ground = [{{ motion = 'sine', amplitude_g = 0.5, frequency_hz = 1.3 }}]
+                    run = {{ free_time_s = 1.0 }}
+                    accuracy = {{ {accuracy} }}"
+                );
+                let scene = Scene::parse_with(&text, "scene", &[]).unwrap();
+                let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+                run.peak_rotation.unwrap()
+            });
+            let near = |other: f64, tolerance: f64| (other / peaks[0] - 1.0).abs() < tolerance;
+            assert!(near(peaks[1], 1e-3) && near(peaks[2], 1e-2), "{device}: {peaks:?}");
+        }
+    }
+}
