@@ -87,7 +87,8 @@ impl Pieces {
     }
 }
 
-/// Longest step over the time in which viscous forces use up a speed whose ends show what is between them: (1/100)³/120 of an acceleration is less than an f32 resolves.
+/// Longest step, over the time in which viscous forces use up a speed, whose ends show what is between them: what they miss, (1/100)³/120 of an
+/// acceleration, is less than an f32 resolves.
 const SHOWN_BY_ENDS: f64 = 0.01;
 
 fn shaking<'a>(horizontal: &'a SumSegment<f64>, vertical: Option<&'a SumSegment<f64>>) -> Shaking<'a, f64> {
