@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use rayon::prelude::*;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
@@ -45,11 +46,15 @@ pub fn run(
         Subject::new(alone)
     };
     let subjects: Vec<Subject> = numbers.map(subject).collect();
-    let shaking = |subject: &Subject| Some(records?.shaking(&subject.scene));
-    let runs: Vec<_> = subjects.iter().filter_map(|subject| Some((subject, shaking(subject)?))).collect();
-    let mut in_lanes = followed(&runs).into_iter();
-    let specimen = |Subject { scene, .. }: &Subject| {
-        let (outcome, peak, impacts) = match in_lanes.next().flatten() {
+    let in_lanes = match records {
+        Some(records) => {
+            let runs: Vec<_> = subjects.iter().map(|subject| (subject, records.shaking(&subject.scene))).collect();
+            followed(&runs)
+        }
+        None => vec![None; subjects.len()],
+    };
+    let specimen = |(Subject { scene, .. }, in_lanes): (&Subject, Option<Followed>)| {
+        let (outcome, peak, impacts) = match in_lanes {
             Some(Followed { motion, .. }) => {
                 (motion.outcome(), motion.relative_peaks(&scene.block).map(|(rotation, _)| rotation), motion.impacts)
             }
@@ -60,5 +65,5 @@ pub fn run(
         };
         Ok(Specimen { seed: scene.file.block.scatter().seed, outcome, peak, more: [impacts.into()] })
     };
-    subjects.iter().map(specimen).collect()
+    subjects.par_iter().zip(in_lanes).map(specimen).collect()
 }
