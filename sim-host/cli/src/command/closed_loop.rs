@@ -95,8 +95,8 @@ impl Run for LoopArguments {
             report.rows_from("monte_carlo", &columns(more), |row| {
                 let name = |&index: &usize| (index, desk.scene.devices[index].name.as_str());
                 let devices: Vec<_> = desk.pairs.iter().map(name).collect();
-                let one = |index, numbers| specimens(&desk, index, numbers, interrupt);
-                let scattered = monte_carlo(&pool, &devices, (count, 1), one, row)?;
+                let some = |index, numbers| specimens(&desk, index, numbers, interrupt);
+                let scattered = monte_carlo(&pool, &devices, (count, 1), some, row)?;
                 for (report, of) in reports.iter_mut().zip(scattered) {
                     report.summary.monte_carlo = Some(of.scatter);
                 }

@@ -129,14 +129,14 @@ impl Device {
         let outcome_right = found.outcome == self.reference.outcome;
         let stands = outcome_right && found.outcome.is_some_and(|outcome| !outcome.overturned());
         let counted = !self.grid.is_empty() && !matches!(variant.setting, Setting::Step(step) if step < SMALLEST_STEP_OF_CELLS);
-        let wrong_share = if counted { Some(self.wrong(&variant, interrupt)? as f64 / self.grid.len() as f64) } else { None };
+        let wrong = counted.then(|| self.wrong(&variant, interrupt)).transpose()?;
         Ok(Row {
             device: index,
             variant,
             outcome_right,
             peak_error: stands.then(|| relative(found.peak, self.reference.peak)),
             history_error: stands.then(|| self.history_error(&found)),
-            wrong_share,
+            wrong_share: wrong.map(|wrong| wrong as f64 / self.grid.len() as f64),
             steps_per_second: found.steps as f64 / end,
             nanoseconds: 0.0,
             board: None,
