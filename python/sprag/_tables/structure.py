@@ -311,7 +311,7 @@ class SupportRecord(Table):
     units
         Units of a record that does not state its own: g, m/s2, cm/s2 (gal), mm/s2, in/s2 or ft/s2.
     time_step_s
-        Time step of a record that does not state its own; from 1e-06 to 10.
+        Time step of a record that does not state its own; from 1e-05 to 1.
     component
         Component of a record file with several.
     resample_to_s

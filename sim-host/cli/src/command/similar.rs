@@ -157,9 +157,7 @@ fn in_words(departure: &Departure, overturned: [bool; 2]) -> String {
 fn block(arguments: &SimilarArguments, changes: &str, first: Option<&Block>, interrupt: &Interrupt) -> anyhow::Result<Block> {
     let mut overrides = arguments.scene.set.clone();
     overrides.extend(items(changes).map(str::to_owned));
-    // What the first block takes, the others take but for their own changes.
-    let option = if first.is_some() { "--with" } else { "--set" };
-    let mut scene = Scene::load(&arguments.scene.scene, &overrides).map_err(|error| error.of_option(option))?;
+    let mut scene = Scene::load(&arguments.scene.scene, &overrides)?;
     arguments.records.apply(&mut scene)?;
     scene.refuse_support_records("blocks are compared by dimensionless groups, and a record of the support is none")?;
     if first.is_some_and(|first| first.scene.devices.len() != scene.devices.len()) {

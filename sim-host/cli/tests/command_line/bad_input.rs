@@ -25,7 +25,7 @@ fn bad_scenes_cost_one_line() {
     refused(&["simulate", &scene("cloud"), "--out", to], &out, &["is a key of studies", "`sprag cloud`"]);
     refused(&["cloud", &figure, "--records", "x.AT2", "--out", to], &out, &["block is a key of scenes", "`sprag simulate`"]);
     let similar = |with: &str, words: &[&str]| refused(&["similar", &figure, "--out", to, "--with", with], &out, words);
-    similar("block.size_m", &["--with block.size_m: must be KEY=VALUE"]);
+    similar("block.size_m", &[": block.size_m: must be KEY=VALUE"]);
     set("output.interval_s=1e-6", &["5 million"]);
     refused(&["simulate", "nowhere.toml", "--out", to], &out, &["nowhere.toml"]);
     refused(&["simulate", SCENES, "--out", to], &out, &["not a file"]);

@@ -115,7 +115,7 @@ fn messages_are_in_words_that_need_no_rust() {
     set("block.slenderness_deg=ten", &["block.slenderness_deg is \"ten\", but must be a number"]);
     set("ground={motion=\"sine\"}", &["ground is a table, but must be a list"]);
     set("device.1.kind=5", &["device.1.kind"]);
-    set("vertical.1.motion=sine", &["--set vertical.1.motion", "`1` must be 0, for there is none yet"]);
+    set("vertical.1.motion=sine", &[": vertical.1.motion: ", "`1` must be 0, for there is none yet"]);
     set("ground.2.scale=1", &["`2` must be a number from 0 to 0, or 1 to add one"]);
     set("block.size_m=3", &["give only one of size_m and frequency_parameter_1_s", "--set KEY="]);
     set("block.colour=", &["block.colour is not there"]);

@@ -69,18 +69,6 @@ pub enum SceneError {
     },
 }
 
-impl SceneError {
-    /// The same, said of `option` where it is said of `--set`.
-    pub fn of_option(self, option: &str) -> SceneError {
-        match self {
-            SceneError::Conflict { origin, key, reason } if key.starts_with("--set ") => {
-                SceneError::Conflict { origin, key: key.replacen("--set", option, 1), reason }
-            }
-            error => error,
-        }
-    }
-}
-
 /// The place of a value, from which errors about it are made.
 #[derive(Debug, Clone)]
 pub struct KeyPath {

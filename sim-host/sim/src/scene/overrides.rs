@@ -1,4 +1,4 @@
-//! `--set KEY=VALUE`: changes one value of a scene from the command line.
+//! `KEY=VALUE`: changes one value of a scene, from the command line, in a study or by a page.
 
 use toml::{Table, Value};
 
@@ -12,8 +12,7 @@ use super::SceneError;
 /// [`SceneError::Conflict`] when `item` has no `=`, its key leads through a value that is not a table or an array, or what shall be left
 /// out is not there.
 pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneError> {
-    let refuse =
-        |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: format!("--set {key}"), reason };
+    let refuse = |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: key.to_owned(), reason };
     let Some((path, text)) = item.split_once('=') else {
         return Err(refuse(item, "must be KEY=VALUE, such as block.size_m=2".to_owned()));
     };

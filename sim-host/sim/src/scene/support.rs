@@ -30,7 +30,7 @@ pub struct SupportRecordTable {
     #[schemars(example = &"g")]
     pub units: Option<String>,
     /// Time step of a record that does not state its own.
-    #[schemars(range(min = 1e-6, max = 10.0))]
+    #[schemars(range(min = TIME_STEP_RANGE_S.0, max = TIME_STEP_RANGE_S.1))]
     pub time_step_s: Option<f64>,
     /// Component of a record file with several.
     #[schemars(example = &"NS")]
