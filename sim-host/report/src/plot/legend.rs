@@ -183,10 +183,26 @@ fn lines_of(conditions: &[String], width_px: f64) -> Vec<String> {
     in_lines(conditions.iter().map(String::as_str), ", ", fits)
 }
 
-/// Lines of `title`, broken at spaces; a single word may still be too wide.
+/// Lines of `title`, broken at spaces, and words wider than a line after their hyphens; without one a word may still be too wide.
 pub(super) fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
     let fits = |line: &str, word: &str| text_width_px(line, font_px) + text_width_px(word, font_px) + font_px <= width_px;
-    in_lines(title.split_whitespace(), " ", fits).iter().map(|line| escape(line)).collect()
+    let words = title.split_whitespace().flat_map(|word| hyphenated(word, width_px, font_px));
+    in_lines(words, " ", fits).iter().map(|line| escape(line)).collect()
+}
+
+/// `word` in parts that fit, as far as its hyphens allow.
+fn hyphenated(word: &str, width_px: f64, font_px: f64) -> Vec<&str> {
+    let (mut parts, mut start, mut end) = (Vec::new(), 0, 0);
+    for syllables in word.split_inclusive('-') {
+        let next = end + syllables.len();
+        if end > start && text_width_px(&word[start..next], font_px) > width_px {
+            parts.push(&word[start..end]);
+            start = end;
+        }
+        end = next;
+    }
+    parts.push(&word[start..]);
+    parts
 }
 
 #[cfg(test)]
@@ -207,6 +223,9 @@ mod tests {
         let title = "word ".repeat(60);
         assert!(wrapped(&title, 600.0, 14.0).len() > 2);
         assert!(wrapped("", 600.0, 14.0).is_empty());
+        assert_eq!(wrapped("resisting-predicted, sine", 200.0, 12.0), ["resisting-predicted, sine"]);
+        assert_eq!(wrapped("resisting-predicted, sine", 100.0, 12.0), ["resisting-", "predicted, sine"]);
+        assert_eq!(wrapped("a word-with-hyphens in it", 70.0, 12.0), ["a", "word-with-", "hyphens", "in it"]);
         let short = shortened(&"x".repeat(500), 300.0);
         assert!(short.ends_with('…') && text_width_px(&short, FONT_PX) <= 300.0 + FONT_PX);
         let outcome = shortened(&format!("{} (safe)", "x".repeat(500)), 300.0);
