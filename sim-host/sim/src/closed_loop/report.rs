@@ -137,11 +137,12 @@ impl fmt::Display for LoopSummary {
         let DecisionReport { wrong_share, delay_median_s, delay_95_s, switches, ideal_switches, .. } = &self.decisions;
         writeln!(
             out,
-            "  decisions    wrong {:.2} % of the way, late by {} (median), {} (95th percentile), {switches} switches, the law on the true motion {ideal_switches}",
+            "  decisions    wrong {:.2} % of the way, late by {} (median), {} (95th percentile)",
             100.0 * wrong_share,
             milliseconds(*delay_median_s),
             milliseconds(*delay_95_s)
         )?;
+        writeln!(out, "  switches     {switches}, by the law on the true motion {ideal_switches}")?;
         let when = if self.outcome.overturned() { "when the fall began" } else { "at the end" };
         writeln!(out, "  controller   {} {when}; {} ticks in all", self.controller_state, self.ticks)?;
         for fault in &self.faults {

@@ -11,10 +11,11 @@ use super::motion::{Motion, Records, and_records, grid};
 use super::practice::{COLUMNS, Comparison, ROCKS};
 use super::report::Report;
 
-/// A sweep: heading, unit, values, and the override that sets one.
+/// A sweep: heading, what is swept and its unit, values, and the override that sets one.
 struct Sweep {
     heading: &'static str,
     axis: &'static str,
+    unit: &'static str,
     values: &'static [f64],
     scale: Scale,
     set: fn(f64) -> Vec<String>,
@@ -23,21 +24,24 @@ struct Sweep {
 const SWEEPS: [Sweep; 8] = [
     Sweep {
         heading: "Delay from sample to clutch",
-        axis: "ms",
+        axis: "delay (ms)",
+        unit: " ms",
         values: &[0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.latency_s={:?}", 1e-3 * value)],
     },
     Sweep {
         heading: "Delay that the controller does not know of",
-        axis: "ms",
+        axis: "delay (ms)",
+        unit: " ms",
         values: &[0.0, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.latency_s={:?}", 1e-3 * value), "controller.law=\"resisting\"".to_owned()],
     },
     Sweep {
-        heading: "Noise of gyroscope and accelerometers, times that of an ICM-42688-P",
-        axis: "times",
+        heading: "Noise of gyroscope and accelerometers",
+        axis: "noise over that of an ICM-42688-P",
+        unit: " times",
         values: &[0.1, 1.0, 3.0, 10.0, 30.0, 100.0],
         scale: Scale::Logarithmic,
         set: |value| {
@@ -56,35 +60,40 @@ const SWEEPS: [Sweep; 8] = [
     },
     Sweep {
         heading: "Control rate",
-        axis: "Hz",
+        axis: "control rate (Hz)",
+        unit: " Hz",
         values: &[100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0],
         scale: Scale::Logarithmic,
         set: |value| vec![format!("controller.rate_hz={value:?}")],
     },
     Sweep {
-        heading: "Believed α over the true one",
-        axis: "-",
+        heading: "Believed α",
+        axis: "believed α over the true one",
+        unit: "",
         values: &[0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.2],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.slenderness_factor={value:?}")],
     },
     Sweep {
-        heading: "Believed R over the true one",
-        axis: "-",
+        heading: "Believed R",
+        axis: "believed R over the true one",
+        unit: "",
         values: &[0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.2],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.size_factor={value:?}")],
     },
     Sweep {
-        heading: "Believed σ over the true one",
-        axis: "-",
+        heading: "Believed σ",
+        axis: "believed σ over the true one",
+        unit: "",
         values: &[0.8, 0.9, 1.0, 1.1, 1.2],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.mass_ratio_factor={value:?}")],
     },
     Sweep {
-        heading: "Believed η over the true one",
-        axis: "-",
+        heading: "Believed η",
+        axis: "believed η over the true one",
+        unit: "",
         values: &[0.8, 0.9, 1.0, 1.1, 1.17],
         scale: Scale::Linear,
         set: |value| vec![format!("controller.belief.restitution_factor={value:?}")],
@@ -105,7 +114,7 @@ fn breaking(sweep: &Sweep, name: &str, high: &[(f64, f64)]) -> String {
     if beyond.is_empty() {
         format!("Under {name} the 95th percentile stays within 5 % over the whole range.")
     } else {
-        format!("Under {name} the 95th percentile is beyond 5 % at {} {}.", beyond.join(", "), sweep.axis)
+        format!("Under {name} the 95th percentile is beyond 5 % at {}{}.", beyond.join(", "), sweep.unit)
     }
 }
 
