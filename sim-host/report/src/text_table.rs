@@ -1,10 +1,10 @@
 //! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
 
-use console::{Term, measure_text_width};
+use console::measure_text_width;
 use sprag_sim::effect::number::true_minus;
 
 use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
-use crate::lines::in_lines;
+use crate::terminal::{broken, room};
 
 /// A table whose first columns are words, to the left, and the others numbers, to the right.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,9 +71,7 @@ impl TextTable {
 
     /// Columns that are aligned by spaces, as wide as standard output where that is a terminal.
     pub fn for_terminal(&self) -> String {
-        let terminal = Term::stdout();
-        let size = if terminal.is_term() { terminal.size_checked() } else { None };
-        self.within(size.map_or(usize::MAX, |(_, columns)| columns.into()))
+        self.within(room())
     }
 
     /// Columns that are aligned by spaces; where they are wider than `room`, in several tables one below another, each with the first words.
@@ -188,11 +186,6 @@ fn widths(rows: &[Vec<String>]) -> Vec<usize> {
 /// Width of `columns` together.
 fn needed(widths: &[usize], columns: &[usize]) -> usize {
     columns.iter().map(|&column| widths[column] + GAP.len()).sum::<usize>().saturating_sub(GAP.len())
-}
-
-/// `cell` in lines of `width`, which end between words.
-fn broken(cell: &str, width: usize) -> Vec<String> {
-    in_lines(cell.split(' '), " ", |line, word| measure_text_width(line) + 1 + measure_text_width(word) <= width)
 }
 
 /// A number with `digits` decimals; a dash for none and for one that is not finite.

@@ -9,6 +9,7 @@ use sprag_report::columns::{Column, Table, metadata_of};
 use sprag_report::output::{Formats, Maker, OutputError, Results, RowTaker, SCHEMA_VERSION, Subject, Summary, VERSION};
 use sprag_report::plot::PlotError;
 use sprag_report::progress::Progress;
+use sprag_report::terminal::for_terminal;
 use sprag_sim::record::RecordSummary;
 use sprag_sim::scene::schema::SceneFile;
 
@@ -205,7 +206,7 @@ impl Report {
                 let _ = context.err.write_all(text.as_bytes());
             }
         } else {
-            context.print(text);
+            context.print(for_terminal(&text));
         }
         self.notes.iter().for_each(|line| context.note(line));
         Ok(self.completion)

@@ -6,7 +6,7 @@ use sprag_sim::effect::number::true_minus;
 use super::findings::Row;
 use super::notes::device;
 use super::ranking::Rival;
-use crate::statistics::{Band, Level};
+use crate::statistics::{Band, Level, Paired};
 
 /// The name of a rival in a sentence.
 pub(super) fn rival_name(row: &Row) -> String {
@@ -49,7 +49,17 @@ fn amount(rival: &Rival) -> String {
     } else {
         (difference, [band.low, band.high], "fewer")
     };
-    format!("{} {word} of the motions overturn it [{}, {}]", points(size), points(low), points(high))
+    let doubt = match (rival.sure, low <= 0.0) {
+        (true, _) | (false, true) => String::new(),
+        (false, false) => {
+            let Paired { groups_above, groups_below, chance, .. } = rival.overturning;
+            format!(
+                " (better in {groups_above} groups and worse in {groups_below}, which has a probability of {} between equals)",
+                points(chance)
+            )
+        }
+    };
+    format!("{} {word} of the motions overturn it [{}, {}]{doubt}", points(size), points(low), points(high))
 }
 
 /// A share of the motions in percent, with a decimal.
@@ -78,7 +88,6 @@ pub(super) fn rotation_ratio(rival: &Rival) -> String {
 mod tests {
     use super::*;
     use crate::optimise::design::Score;
-    use crate::statistics::Paired;
 
     fn rival(difference: f64, half: f64, sure: bool, log: Option<f64>) -> Rival {
         let paired = |difference: f64, half: f64| Paired {
@@ -112,6 +121,11 @@ mod tests {
             of(rival(0.01, 0.02, false, Some(0.5))),
             "not distinguishable from no device by overturning: 1.0 % fewer of the motions overturn it [\u{2212}1.0 %, 3.0 %]; where both rock \
              and stand, its peak rotations are 39 % smaller [33 %, 45 %]"
+        );
+        assert_eq!(
+            of(rival(0.1, 0.02, false, None)),
+            "not distinguishable from no device: 10.0 % fewer of the motions overturn it [8.0 %, 12.0 %] (better in 12 groups and worse \
+             in 1, which has a probability of 0.4 % between equals)"
         );
         let same = rival(0.0, 0.0, false, Some(0.01)).verdict(Level::COMMON);
         assert_eq!(same, "not distinguishable from no device: under every motion both overturn or both stand");
