@@ -23,6 +23,12 @@ impl<T: Copy> Delivery<T> {
         Delivery { latency, readable: first, due, pending, oldest: 0, count: 0 }
     }
 
+    /// Whether one taken at `instant` (s) can be read at `time` (s).
+    #[inline]
+    pub(super) fn arrives(&self, instant: f64, time: f64) -> bool {
+        instant + self.latency <= time
+    }
+
     /// A reading taken at `instant` (s), not before the last one.
     #[inline]
     pub(super) fn send(&mut self, instant: f64, reading: T) {

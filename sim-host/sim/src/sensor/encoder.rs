@@ -137,7 +137,9 @@ impl EncoderSensor {
             self.send(instant, before + part * (travel - before));
         }
         // The counter itself never stops counting, and missing.
-        self.count(travel);
+        if self.miss_probability > 0.0 {
+            self.count(travel);
+        }
         self.delivery.deliver(end);
         (self.time, self.travel) = (end, travel);
     }

@@ -73,10 +73,10 @@ struct Axis {
     drift: Wander,
 }
 
-/// The readings of all axes at one instant.
+/// All axes at one instant, before the conversion: of several between two ticks only the last is converted.
 #[derive(Clone, Copy, Debug)]
-struct Readings<const AXES: usize> {
-    values: [f32; AXES],
+struct Outputs<const AXES: usize> {
+    values: [f64; AXES],
     number: u32,
 }
 
@@ -96,7 +96,7 @@ pub(super) struct InertialSensor<const AXES: usize> {
     /// That truth, with scale and misalignment.
     input: [f64; AXES],
     number: u32,
-    delivery: Delivery<Readings<AXES>>,
+    delivery: Delivery<Outputs<AXES>>,
 }
 
 impl<const AXES: usize> InertialSensor<AXES> {
@@ -139,11 +139,11 @@ impl<const AXES: usize> InertialSensor<AXES> {
             time: 0.0,
             input: [0.0; AXES],
             number: 0,
-            delivery: Delivery::new(inertial.sampling.latency, Readings { values: [0.0; AXES], number: 0 }),
+            delivery: Delivery::new(inertial.sampling.latency, Outputs { values: [0.0; AXES], number: 0 }),
         };
         sensor.input = sensor.mix(truth);
         sensor.filtered = sensor.input.map(|value| State { value, slope: 0.0 });
-        let first = sensor.read(&sensor.input.clone(), 0.0);
+        let first = sensor.output(&sensor.input.clone(), 0.0);
         sensor.delivery = Delivery::new(inertial.sampling.latency, first);
         sensor
     }
@@ -160,21 +160,38 @@ impl<const AXES: usize> InertialSensor<AXES> {
         mixed
     }
 
-    /// A reading `span` (s) after the last one, of what the filter holds or else of `input`.
+    /// Outputs `span` (s) after the last ones: what the filter holds, or else `input`, with its errors.
     #[inline(always)]
-    fn read(&mut self, input: &[f64; AXES], span: f64) -> Readings<AXES> {
+    fn output(&mut self, input: &[f64; AXES], span: f64) -> Outputs<AXES> {
         self.number = self.number.wrapping_add(1);
         let filtered = self.low_pass.is_some();
         let mut values = [0.0; AXES];
         for axis in 0..AXES {
             let parts = &mut self.axes[axis];
             let signal = if filtered { self.filtered[axis].value } else { input[axis] };
-            let output = signal + parts.bias + parts.drift.next(span) + parts.noise.next(span);
-            let limited = output.clamp(-self.full_scale, self.full_scale);
-            let steps = self.resolution;
-            values[axis] = (if steps > 0.0 { whole(limited / steps) * steps } else { limited }) as f32;
+            values[axis] = signal + parts.bias + parts.drift.next(span) + parts.noise.next(span);
         }
-        Readings { values, number: self.number }
+        Outputs { values, number: self.number }
+    }
+
+    /// `count` outputs that nobody sees, each `span` (s) after the last one: only their errors go on.
+    #[inline(always)]
+    fn pass(&mut self, count: u32, span: f64) {
+        self.number = self.number.wrapping_add(count);
+        for Axis { drift, noise, .. } in &mut self.axes {
+            for _ in 0..count {
+                drift.next(span);
+                noise.next(span);
+            }
+        }
+    }
+
+    /// `value` within the full scale, in whole steps.
+    #[inline(always)]
+    fn converted(&self, value: f64) -> f32 {
+        let limited = value.clamp(-self.full_scale, self.full_scale);
+        let steps = self.resolution;
+        (if steps > 0.0 { whole(limited / steps) * steps } else { limited }) as f32
     }
 
     #[inline(always)]
@@ -188,7 +205,7 @@ impl<const AXES: usize> InertialSensor<AXES> {
     pub(super) fn advance(&mut self, time: f64, truth: &[f64; AXES]) {
         if self.ideal {
             self.number = self.number.wrapping_add(1);
-            self.delivery.send(time, Readings { values: truth.map(|value| value as f32), number: self.number });
+            self.delivery.send(time, Outputs { values: *truth, number: self.number });
             return;
         }
         let input = self.mix(truth);
@@ -197,27 +214,33 @@ impl<const AXES: usize> InertialSensor<AXES> {
         let span = end - start;
         let Some(mut next) = self.clock.as_ref().map(|clock| clock.next) else {
             self.follow(span, &before, &input);
-            let readings = self.read(&input, span);
-            self.delivery.send(end, readings);
+            let outputs = self.output(&input, span);
+            self.delivery.send(end, outputs);
             self.delivery.deliver(end);
             (self.time, self.input) = (end, input);
             return;
         };
-        let (mut from, mut held) = (start, before);
+        let (mut from, mut held, mut unseen) = (start, before, 0);
         while next <= end + SAME_INSTANT {
-            let instant = next.clamp(from, end);
+            let Some(clock) = &mut self.clock else { break };
+            let (due, period) = (next, clock.period);
+            clock.step();
+            next = clock.next;
+            // Nobody can look before the next one is there.
+            if self.delivery.arrives(next, end) {
+                unseen += 1;
+                continue;
+            }
+            self.pass(std::mem::take(&mut unseen), period);
+            let instant = due.clamp(from, end);
             let part = if span > 0.0 { (instant - start) / span } else { 1.0 };
             let mut at = before;
             for axis in 0..AXES {
                 at[axis] += part * (input[axis] - before[axis]);
             }
             self.follow(instant - from, &held, &at);
-            let Some(clock) = &mut self.clock else { break };
-            let period = clock.period;
-            clock.step();
-            next = clock.next;
-            let readings = self.read(&at, period);
-            self.delivery.send(instant, readings);
+            let outputs = self.output(&at, period);
+            self.delivery.send(instant, outputs);
             (from, held) = (instant, at);
         }
         self.follow(end - from, &held, &input);
@@ -228,10 +251,10 @@ impl<const AXES: usize> InertialSensor<AXES> {
     /// What can be read.
     #[inline(always)]
     pub(super) fn readings(&self) -> [Reading; AXES] {
-        let Readings { values, number } = self.delivery.readable();
+        let Outputs { values, number } = self.delivery.readable();
         let mut readings = [Reading { value: 0.0, number }; AXES];
         for axis in 0..AXES {
-            readings[axis].value = values[axis];
+            readings[axis].value = self.converted(values[axis]);
         }
         readings
     }

@@ -56,17 +56,15 @@ impl Random {
     fn normal_from(&mut self, mut word: u64) -> f64 {
         loop {
             let (layer, part) = layer_of(word);
-            let (edge, inner) = (self.ziggurat.edge[layer], self.ziggurat.edge[layer + 1]);
-            let value = part * edge;
-            if value.abs() < inner {
+            let value = part * self.ziggurat.edge[layer];
+            if value.abs() < self.ziggurat.edge[layer + 1] {
                 return value;
             }
             if layer == 0 {
                 return self.tail(part < 0.0);
             }
-            let above = |x: f64| math::exp(-0.5 * (x * x - value * value));
-            let (low, high) = (above(edge), above(inner));
-            if low + self.uniform() * (high - low) < 1.0 {
+            let (low, high) = (self.ziggurat.density[layer], self.ziggurat.density[layer + 1]);
+            if low + self.uniform() * (high - low) < density(value) {
                 return value;
             }
             word = self.words.next_u64();
@@ -108,10 +106,15 @@ const LAYER_AREA: f64 = 9.912_563_035_262_17e-3;
 #[derive(Debug)]
 struct Ziggurat {
     edge: [f64; 129],
+    /// exp(−x²/2) at the edges.
+    density: [f64; 129],
+}
+
+fn density(x: f64) -> f64 {
+    math::exp(-0.5 * x * x)
 }
 
 static ZIGGURAT: LazyLock<Ziggurat> = LazyLock::new(|| {
-    let density = |x: f64| math::exp(-0.5 * x * x);
     let mut edge = [0.0; 129];
     edge[0] = LAYER_AREA / density(LAST_EDGE);
     edge[1] = LAST_EDGE;
@@ -119,7 +122,7 @@ static ZIGGURAT: LazyLock<Ziggurat> = LazyLock::new(|| {
         let outer: f64 = edge[layer - 1];
         edge[layer] = math::square_root(-2.0 * math::ln(LAYER_AREA / outer + density(outer)));
     }
-    Ziggurat { edge }
+    Ziggurat { edge, density: edge.map(density) }
 });
 
 #[cfg(test)]

@@ -119,22 +119,26 @@ fn switching_one_imperfection_leaves_the_others() {
 
 #[test]
 fn readings_do_not_depend_on_how_often_the_truth_is_given() {
-    let sampling = Sampling { rate: 8000.0, jitter: 1e-5, latency: 3.9e-3, synchronous: false };
-    let suite = with(Inertial { noise_density: 1e-3, bandwidth: 200.0, sampling, ..Inertial::IDEAL });
-    let read = |pieces: u32| {
-        let mut sensors = Sensors::new(&suite, 4, &rate(0.0));
-        let mut values = Vec::new();
-        for index in 1..=1000 * pieces {
-            let time = 5e-4 * f64::from(index) / f64::from(pieces);
-            sensors.advance(time, &rate(3.0 * time));
-            if index % pieces == 0 {
-                values.push(sensors.sample().gyroscope);
+    // Several readings between two looks, of which the last can be read at once, soon or after many others.
+    for latency in [0.0, 5e-5, 3.9e-3] {
+        let sampling = Sampling { rate: 8000.0, jitter: 1e-5, latency, synchronous: false };
+        let drift = Drift { deviation: 1e-3, correlation_time: 0.5, random_walk: 1e-3 };
+        let suite = with(Inertial { noise_density: 1e-3, drift, bandwidth: 200.0, sampling, ..Inertial::IDEAL });
+        let read = |pieces: u32| {
+            let mut sensors = Sensors::new(&suite, 4, &rate(0.0));
+            let mut values = Vec::new();
+            for index in 1..=1000 * pieces {
+                let time = 5e-4 * f64::from(index) / f64::from(pieces);
+                sensors.advance(time, &rate(3.0 * time));
+                if index % pieces == 0 {
+                    values.push(sensors.sample().gyroscope);
+                }
             }
+            values
+        };
+        for (coarse, fine) in read(1).iter().zip(read(7)) {
+            assert!(coarse.number == fine.number && (coarse.value - fine.value).abs() < 1e-6, "{latency}: {coarse:?} {fine:?}");
         }
-        values
-    };
-    for (coarse, fine) in read(1).iter().zip(read(7)) {
-        assert!(coarse.number == fine.number && (coarse.value - fine.value).abs() < 1e-6);
     }
 }
 
