@@ -186,23 +186,10 @@ fn lines_of(conditions: &[String], width_px: f64) -> Vec<String> {
 /// Lines of `title`, broken at spaces, and words wider than a line after their hyphens; without one a word may still be too wide.
 pub(super) fn wrapped(title: &str, width_px: f64, font_px: f64) -> Vec<String> {
     let fits = |line: &str, word: &str| text_width_px(line, font_px) + text_width_px(word, font_px) + font_px <= width_px;
-    let words = title.split_whitespace().flat_map(|word| hyphenated(word, width_px, font_px));
-    in_lines(words, " ", fits).iter().map(|line| escape(line)).collect()
-}
-
-/// `word` in parts that fit, as far as its hyphens allow.
-fn hyphenated(word: &str, width_px: f64, font_px: f64) -> Vec<&str> {
-    let (mut parts, mut start, mut end) = (Vec::new(), 0, 0);
-    for syllables in word.split_inclusive('-') {
-        let next = end + syllables.len();
-        if end > start && text_width_px(&word[start..next], font_px) > width_px {
-            parts.push(&word[start..end]);
-            start = end;
-        }
-        end = next;
-    }
-    parts.push(&word[start..]);
-    parts
+    let parts_fit = |part: &str, next: &str| text_width_px(part, font_px) + text_width_px(next, font_px) <= width_px;
+    let in_parts = |word: &str| in_lines(word.split_inclusive('-'), "", parts_fit);
+    let words: Vec<String> = title.split_whitespace().flat_map(in_parts).collect();
+    in_lines(words.iter().map(String::as_str), " ", fits).iter().map(|line| escape(line)).collect()
 }
 
 #[cfg(test)]

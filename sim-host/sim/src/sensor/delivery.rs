@@ -26,7 +26,7 @@ impl<T: Copy> Delivery<T> {
     /// Whether one taken at `instant` (s) can be read at `time` (s).
     #[inline]
     pub(super) fn arrives(&self, instant: f64, time: f64) -> bool {
-        instant + self.latency <= time
+        instant + self.latency <= time + SAME_INSTANT
     }
 
     /// A reading taken at `instant` (s), not before the last one.

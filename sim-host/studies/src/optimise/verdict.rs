@@ -49,15 +49,14 @@ fn amount(rival: &Rival) -> String {
     } else {
         (difference, [band.low, band.high], "fewer")
     };
-    let doubt = match (rival.sure, low <= 0.0) {
-        (true, _) | (false, true) => String::new(),
-        (false, false) => {
-            let Paired { groups_above, groups_below, chance, .. } = rival.overturning;
-            format!(
-                " (better in {groups_above} groups and worse in {groups_below}, which has a probability of {} between equals)",
-                points(chance)
-            )
-        }
+    let doubt = if rival.sure || low <= 0.0 {
+        String::new()
+    } else {
+        let Paired { groups_above, groups_below, chance, .. } = rival.overturning;
+        let chance = points(chance);
+        format!(
+            " (better in {groups_above} groups and worse in {groups_below}, which has a probability of {chance} between equals)"
+        )
     };
     format!("{} {word} of the motions overturn it [{}, {}]{doubt}", points(size), points(low), points(high))
 }
