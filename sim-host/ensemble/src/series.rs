@@ -128,7 +128,7 @@ impl<const TERMS: usize> Series<TERMS> {
 /// x to the `exponent` (0 to 1) to about 7 %, for choosing step sizes only: as [`sprag_shared::math::scalar::Real::rough_power`], from the
 /// high halves of the bits, for which registers have conversions to doubles. None has Rust's back, which saturates.
 #[inline(always)]
-fn rough_power(x: Number, exponent: f64) -> Number {
+pub(crate) fn rough_power(x: Number, exponent: f64) -> Number {
     const ONE: i32 = 0x3ff0_0000;
     // Added to this, 1.5 × 2⁵², a number loses its fraction, and its low half is the whole number.
     const WHOLE: f64 = 6_755_399_441_055_744.0;

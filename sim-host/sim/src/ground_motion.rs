@@ -126,6 +126,11 @@ impl GroundMotion {
         self.segments.last().map_or(0.0, |segment| segment.start + segment.duration)
     }
 
+    /// A block's weight at its lightest under this vertical motion, over its weight at rest.
+    pub fn lightest(&self) -> f64 {
+        1.0 + self.lowest().0.min(0.0)
+    }
+
     /// Largest |ü_g| at 2,000 instants and at every kink, m/s².
     pub fn peak_m_s2(&self) -> f64 {
         let mut peak = 0.0_f64;

@@ -25,6 +25,6 @@ pub mod map;
 pub mod record;
 pub mod scene;
 pub mod sensor;
+pub mod side_by_side;
 pub mod simulation;
 pub mod synthesis;
-pub mod under_records;

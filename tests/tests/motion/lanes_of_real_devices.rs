@@ -1,9 +1,14 @@
-//! Blocks with real devices under records in lanes against the core, which follows one at a time.
+//! Blocks with real devices in lanes against the core, which follows one at a time.
 
+use std::f64::consts::TAU;
+
+use sprag_ensemble::hybrid::ground::{Ground, Sampled};
 use sprag_ensemble::hybrid::{HybridBlock, HybridMotion, Steps};
 use sprag_ensemble::machine::{Registers, shake_hybrid};
 use sprag_ensemble::shaken::{Samples, Shaken};
 use sprag_loops::{Method, hybrid};
+use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
+use sprag_shared::ground::{AnySegment, DampedOscillation, Harmonics, Linear, Ricker};
 use sprag_shared::math;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
@@ -20,6 +25,7 @@ use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion, Segment};
+use sprag_sim::side_by_side::InPieces;
 use sprag_sim::simulation::drive::{Course, Overturning, Segmented};
 
 use super::lanes_under_records::motion;
@@ -109,19 +115,38 @@ fn checks(structure: &Structure, all: bool) -> Checks<f64> {
     if all { checks } else { checks.brief() }
 }
 
-/// By the core, alone.
-fn alone(structure: &Structure, block: &HybridBlock<'_>) -> (HybridState<f64>, Both) {
-    let component = |samples: Option<&Samples>, factor: f64| {
-        let values = samples.map(Samples::values).unwrap_or_default();
-        [Component::record(0.0, block.samples.step(), values.iter().map(|value| factor * value))]
+/// A motion of the ground, for lanes and for the core.
+struct Moving<'a> {
+    ground: Ground<'a>,
+    level: GroundMotion,
+    vertical: Option<GroundMotion>,
+}
+
+/// Records of this `step` (s), each at several scales, with a vertical one or without.
+fn shaken(records: &[Samples], vertical: bool) -> Vec<Moving<'_>> {
+    let component = |of: &Samples, factor: f64| Component::record(0.0, of.step(), of.values().iter().map(|value| factor * value));
+    let moving = |samples, factor| {
+        let level = [component(samples, factor)];
+        let up = vertical.then_some((&records[0], UP));
+        let ground = Ground::Record(Sampled { samples, factor, vertical: up });
+        match up {
+            None => Moving { ground, level: GroundMotion::sum(&level), vertical: None },
+            Some((up, factor)) => {
+                let [level, up] = GroundMotion::aligned(&level, &[component(up, factor)]);
+                Moving { ground, level, vertical: Some(up) }
+            }
+        }
     };
-    let up = block.vertical.map(|(up, _)| up);
-    let [level, vertical] = GroundMotion::aligned(&component(Some(block.samples), block.factor), &component(up, UP));
-    let vertical = up.map(|_| &vertical);
-    let course = Course { vertical, ..Course::of(structure, &level, FREE_TIME, Overturning::Reached) };
-    let (mut state, mut both) = (block.system.at_rest(), Both(Peaks::default(), checks(structure, true)));
+    records.iter().flat_map(|samples| [0.25, 0.5, 0.8, -1.2, 2.0].map(|factor| moving(samples, factor))).collect()
+}
+
+/// By the core, alone.
+fn alone(structure: &Structure, system: &HybridSystem<f64>, moving: &Moving<'_>) -> (HybridState<f64>, Both) {
+    let Moving { level, vertical, .. } = moving;
+    let course = Course { vertical: vertical.as_ref(), ..Course::of(structure, level, FREE_TIME, Overturning::Reached) };
+    let (mut state, mut both) = (system.at_rest(), Both(Peaks::default(), checks(structure, true)));
     let method = hybrid(Method::Adaptive(TIGHT));
-    course.follow_machine(block.system, &*method, &mut state, &mut both, || true).unwrap();
+    course.follow_machine(system, &*method, &mut state, &mut both, || true).unwrap();
     (state, both)
 }
 
@@ -132,38 +157,43 @@ struct Seen {
     phases: [u32; 3],
 }
 
-/// Compares lanes and core for `structures` on `drivetrain` under motions with samples every `step` (s).
-fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, step: f64, vertical: bool) -> Seen {
-    let motions: Vec<Samples> = (1..6).map(|seed| Samples::new(step, motion(seed, SECONDS, step))).collect();
+/// A few per cent of the steps are the core's alone; more where flywheels are overrun, where the force on a mesh has a sign to look for, and with
+/// viscous slip, of which lanes have no equations.
+fn are_hard(drivetrain: &Drivetrain) -> bool {
+    let hard = matches!(drivetrain.engagement, Engagement::Overrunning | Engagement::Viscous { .. });
+    hard || drivetrain.rack.load_friction != 0.0
+}
+
+/// Compares lanes and core for `structures` on `drivetrain` under each of `motions`.
+fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Moving<'_>]) -> Seen {
+    let vertical = motions.iter().any(|moving| moving.vertical.is_some());
     let mut seen = Seen::default();
     for structure in structures {
         let system = drivetrain.resolve::<f64>(&structure, vertical).unwrap();
         let checks = checks(&structure, false);
-        let block = |(samples, factor)| HybridBlock {
-            system: &system,
-            overturned_at_slenderness: false,
-            samples,
-            factor,
-            vertical: vertical.then_some((&motions[0], UP)),
-            checks: Some(&checks),
-        };
-        let scaled = motions.iter().flat_map(|samples| [0.25, 0.5, 0.8, -1.2, 2.0].map(|factor| (samples, factor)));
-        let asked: Vec<HybridBlock<'_>> = scaled.map(block).collect();
-        for (block, found) in asked.iter().zip(shake_hybrid(&asked, Registers::Widest)) {
-            let found = found.expect("lanes take it").after(block, FREE_TIME).unwrap();
+        let block = |ground| HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: Some(&checks) };
+        let asked: Vec<HybridBlock<'_>> = motions.iter().map(|moving| block(moving.ground)).collect();
+        for ((block, moving), found) in asked.iter().zip(motions).zip(shake_hybrid(&asked, Registers::Widest)) {
+            let found = found.expect("lanes take it");
+            let found = match block.ground {
+                Ground::Record(_) => found.after(block, FREE_TIME).unwrap(),
+                Ground::Pieces(_) => found,
+            };
             let Steps { plain, located, by_core } = found.steps;
             for (sum, number) in seen.steps.iter_mut().zip([plain, located, by_core]) {
                 *sum += number;
             }
-            let (state, Both(peaks, checked)) = alone(&structure, block);
-            let case = format!("{structure:?} {drivetrain:?} times {}: {found:?} {state:?} {peaks:?}", block.factor);
+            let (state, Both(peaks, checked)) = alone(&structure, &system, moving);
+            let case = format!("{structure:?} {drivetrain:?} {:?}: {found:?} {state:?} {peaks:?}", block.ground);
             seen.phases[state.motion.phase as usize] += 1;
             assert_eq!(
                 (found.state.motion.phase, found.state.motion.impacts),
                 (state.motion.phase, state.motion.impacts),
                 "{case}"
             );
-            assert_eq!(found.state.device.engagements, state.device.engagements, "{case}");
+            // On quiet ground θ̈ of a slender block changes its sign where the block overturns: rounding decides whether a clutch engages there.
+            let last = u32::from((structure.geometry, state.motion.phase) == (Geometry::Slender, Phase::Overturned));
+            assert!(found.state.device.engagements.abs_diff(state.device.engagements) <= last, "{case}");
             assert_eq!(found.peaks.rocked, peaks.rocked, "{case}");
             for (ours, theirs) in [(found.peaks.first_impact, peaks.first_impact), (found.peaks.ended, peaks.ended)] {
                 assert_eq!(ours.is_some(), theirs.is_some(), "{case}");
@@ -184,29 +214,33 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, step: f64, verti
     seen
 }
 
+fn records(step: f64) -> Vec<Samples> {
+    (1..6).map(|seed| Samples::new(step, motion(seed, SECONDS, step))).collect()
+}
+
 #[test]
 fn real_devices_under_records_do_what_they_do_alone() {
+    let records = records(STEP);
+    let motions = shaken(&records, false);
     for geometry in [Geometry::Full, Geometry::Slender] {
         for (index, drivetrain) in drivetrains().iter().enumerate() {
-            let seen = compare(structures(geometry), drivetrain, STEP, false);
+            let seen = compare(structures(geometry), drivetrain, &motions);
             println!("{geometry:?} {index}: {:?} {:?}", seen.steps, seen.phases);
             assert!(seen.phases[Phase::Rest as usize] > 10 && seen.phases[Phase::Overturned as usize] > 5, "{:?}", seen.phases);
             let [plain, located, by_core] = seen.steps;
-            // A few per cent are the core's alone; more where flywheels are overrun, where the force on a mesh has a sign to look for, and with
-            // viscous slip, of which lanes have no equations.
-            let hard = matches!(drivetrain.engagement, Engagement::Overrunning | Engagement::Viscous { .. });
-            let many = hard || drivetrain.rack.load_friction != 0.0;
-            assert!(many || by_core * 25 <= plain + located, "{:?}", seen.steps);
+            assert!(are_hard(drivetrain) || by_core * 25 <= plain + located, "{:?}", seen.steps);
         }
     }
 }
 
 #[test]
 fn real_devices_do_so_on_ground_that_moves_vertically_too() {
+    let records = records(STEP);
+    let motions = shaken(&records, true);
     for geometry in [Geometry::Full, Geometry::Slender] {
         // With dwell and misses some of these motions are so ill-conditioned that rounding shows in the ninth digit.
         for drivetrain in [0, 1, 4, 5].map(|index| drivetrains()[index]) {
-            compare(structures(geometry), &drivetrain, STEP, true);
+            compare(structures(geometry), &drivetrain, &motions);
         }
     }
 }
@@ -214,13 +248,16 @@ fn real_devices_do_so_on_ground_that_moves_vertically_too() {
 #[test]
 fn ideal_devices_do_so_by_either_kinematics() {
     use KinematicsKind::{Consistent, Paper};
+    let records = records(STEP);
+    let motions = [shaken(&records, false), shaken(&records, true)];
     for geometry in [Geometry::Full, Geometry::Slender] {
         for kind in DeviceKind::ALL {
             for (kinematics, vertical) in [(Paper, false), (Paper, true), (Consistent, true)] {
                 let mut structures = structures_with(geometry, kind, kinematics);
                 // Ground that nearly lifts a block of nearly elastic impacts magnifies rounding up to 1e10 times.
                 structures.retain(|structure| !vertical || structure.restitution != Restitution::Constant(0.95));
-                let [plain, located, by_core] = compare(structures, &Drivetrain::default(), STEP, vertical).steps;
+                let [plain, located, by_core] =
+                    compare(structures, &Drivetrain::default(), &motions[usize::from(vertical)]).steps;
                 assert!(by_core * 25 <= plain + located, "{kind:?} {kinematics:?} {plain} {located} {by_core}");
             }
         }
@@ -230,9 +267,11 @@ fn ideal_devices_do_so_by_either_kinematics() {
 #[test]
 fn samples_far_apart_take_nothing_from_the_accuracy() {
     for (index, step) in LONG_STEPS.into_iter().enumerate() {
+        let records = records(step);
+        let motions = shaken(&records, false);
         for geometry in [Geometry::Full, Geometry::Slender] {
             for drivetrain in [Drivetrain::default(), drivetrains()[1], drivetrains()[5]] {
-                let [plain, located, by_core] = compare(structures(geometry), &drivetrain, step, false).steps;
+                let [plain, located, by_core] = compare(structures(geometry), &drivetrain, &motions).steps;
                 println!("{step} {geometry:?} {plain} {located} {by_core}");
                 assert!(index > 0 || by_core * 5 <= plain + located);
             }
@@ -240,24 +279,81 @@ fn samples_far_apart_take_nothing_from_the_accuracy() {
     }
 }
 
+/// Pulses of every shape, some of which jump or overlap, with a vertical one beside each or without.
+fn pulses(vertical: bool) -> Vec<(GroundMotion, Option<GroundMotion>)> {
+    let pulse = |start, duration, shape| Component::pulse(start, duration, shape);
+    let sine = |amplitude, frequency: f64| pulse(0.0, TAU / frequency, AnySegment::Sine(Harmonics::sine(amplitude, frequency)));
+    let cosine =
+        |amplitude, frequency: f64| pulse(0.2, TAU / frequency, AnySegment::Sine(Harmonics::cosine(amplitude, frequency)));
+    let ricker = |amplitude| pulse(0.0, 2.0, AnySegment::Ricker(Ricker { amplitude, rate: 5.0, centre: 1.0 }));
+    let near_fault = MavroeidisPapageorgiou { velocity_amplitude: 0.9, frequency: 0.7, oscillations: 2.5, phase: 0.4 };
+    let constant = |duration, level| pulse(0.3, duration, AnySegment::Linear(Linear::constant(level)));
+    let free = DampedOscillation { real: 0.2, imaginary: 0.5, decay: 0.8, frequency: 4.0 };
+    let lines =
+        |factor| Component::record(0.5, 0.25, [0.0, 0.2, -0.3, 0.35, -0.1, 0.0].into_iter().map(move |value| factor * value));
+    let level: Vec<Vec<Component>> = vec![
+        vec![sine(0.3, 3.0)],
+        vec![sine(-0.8, 6.0)],
+        vec![cosine(0.35, 2.5)],
+        vec![sine(0.7, 12.0)],
+        vec![cosine(-1.5, 9.0)],
+        vec![ricker(0.4)],
+        vec![ricker(-0.9)],
+        vec![pulse(0.1, near_fault.duration(), AnySegment::ThreeSines(near_fault.harmonics()))],
+        vec![constant(0.4, 0.4)],
+        vec![pulse(0.0, 5.0, AnySegment::Damped(free))],
+        vec![sine(0.3, 4.0), lines(1.5), constant(0.2, -0.2)],
+        vec![lines(2.0), ricker(0.2)],
+    ];
+    let with_vertical = |level: &Vec<Component>| {
+        if !vertical {
+            return (GroundMotion::sum(level), None);
+        }
+        let [level, up] = GroundMotion::aligned(level, &[sine(-UP, 7.0)]);
+        (level, Some(up))
+    };
+    level.iter().map(with_vertical).collect()
+}
+
+fn in_pieces((level, vertical): &(GroundMotion, Option<GroundMotion>)) -> InPieces<'_> {
+    InPieces::new(level, vertical.as_ref(), FREE_TIME)
+}
+
+#[test]
+fn real_devices_do_so_under_pulses_and_sums_of_motions() {
+    for vertical in [false, true] {
+        let pulses = pulses(vertical);
+        let pieces: Vec<InPieces<'_>> = pulses.iter().map(in_pieces).collect();
+        let moving = |((level, vertical), ground)| Moving { ground, level, vertical };
+        let grounds = pieces.iter().map(InPieces::ground);
+        let motions: Vec<Moving<'_>> = pulses.iter().cloned().zip(grounds).map(moving).collect();
+        for geometry in [Geometry::Full, Geometry::Slender] {
+            for (index, drivetrain) in drivetrains().iter().enumerate() {
+                let Seen { steps, phases } = compare(structures(geometry), drivetrain, &motions);
+                println!("{vertical} {geometry:?} {index}: {steps:?} {phases:?}");
+                assert!(phases[Phase::Rest as usize] > 20 && phases[Phase::Overturned as usize] > 5, "{phases:?}");
+                assert!(are_hard(drivetrain) || steps[2] * 25 <= steps[0] + steps[1], "{steps:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn bits_depend_neither_on_registers_nor_on_neighbours() {
-    let motions: Vec<Samples> = (1..4).map(|seed| Samples::new(STEP, motion(seed, SECONDS, STEP))).collect();
+    let records = records(STEP);
+    let pulses = pulses(false);
+    let pieces: Vec<InPieces<'_>> = pulses.iter().map(in_pieces).collect();
+    let record = |samples| Ground::Record(Sampled { samples, factor: 0.9, vertical: None });
+    let motions: Vec<Ground<'_>> =
+        records[..3].iter().map(record).chain(pieces.iter().step_by(2).map(InPieces::ground)).collect();
     let systems: Vec<HybridSystem<f64>> = [Geometry::Full, Geometry::Slender]
         .into_iter()
         .flat_map(structures)
         .flat_map(|structure| drivetrains().into_iter().map(move |drivetrain| drivetrain.resolve(&structure, false).unwrap()))
         .collect();
-    let block = |(system, samples)| HybridBlock {
-        system,
-        overturned_at_slenderness: false,
-        samples,
-        factor: 0.9,
-        vertical: None,
-        checks: None,
-    };
+    let block = |(system, ground)| HybridBlock { system, overturned_at_slenderness: false, ground, checks: None };
     let mut asked: Vec<HybridBlock<'_>> =
-        systems.iter().flat_map(|system| motions.iter().map(move |samples| (system, samples))).map(block).collect();
+        systems.iter().flat_map(|system| motions.iter().map(move |&ground| (system, ground))).map(block).collect();
     type Bits = (Phase, [u64; 6], u32, Steps);
     let bits = |results: &[Option<HybridMotion>]| -> Vec<Option<Bits>> {
         let of = |found: &HybridMotion| {
@@ -288,8 +384,8 @@ fn what_is_not_plain_is_left_to_the_core() {
     let samples = Samples::new(STEP, motion(1, SECONDS, STEP));
     let of = |drivetrain: &Drivetrain, samples: &Samples| {
         let system = drivetrain.resolve(structure, false).unwrap();
-        let block =
-            HybridBlock { system: &system, overturned_at_slenderness: false, samples, factor: 1.0, vertical: None, checks: None };
+        let ground = Ground::Record(Sampled { samples, factor: 1.0, vertical: None });
+        let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: None };
         shake_hybrid(&[block], Registers::Widest)[0].is_some()
     };
     assert!(of(&lossy, &samples) && !of(&guided, &samples));

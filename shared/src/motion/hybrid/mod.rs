@@ -100,6 +100,13 @@ pub struct Progress<S> {
     at_once: u32,
 }
 
+impl<S: Real> Progress<S> {
+    /// At the local time `time` (s), where others than the core have taken the block.
+    pub fn at(time: S) -> Progress<S> {
+        Progress { time, ..Progress::default() }
+    }
+}
+
 /// Event that ends a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
@@ -303,11 +310,11 @@ impl<S: Real> HybridSystem<S> {
         } else {
             observer.device_interval(&seen, &interval);
         }
-        let unknowns = output.unknowns(until);
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
         (motion.rotation, motion.velocity) = (last.rotation, last.velocity);
         if traits.unknowns > 0 {
+            let unknowns = output.unknowns(until);
             let configuration = self.body.configuration(motion.side.unit(), motion.rotation);
             state.device.store(&unknowns[..traits.unknowns], self.body.to_terminal(&configuration, motion.velocity));
         }

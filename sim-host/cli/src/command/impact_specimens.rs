@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::side_by_side::{Followed, OnlyRecords, Shaking, Subject, followed};
 use sprag_sim::simulation::{RunError, simulate};
-use sprag_sim::under_records::{Followed, OnlyRecords, Subject, followed};
 
 use super::specimens::Specimen;
 
@@ -25,8 +25,8 @@ pub fn check(scene: &Scene) -> anyhow::Result<()> {
 /// Specimens that one task takes: enough to keep lanes full.
 pub const TOGETHER: usize = 32;
 
-/// Device `index` with the seeds of its impacts that come `numbers` places after that of the scene: in lanes where `records` alone move the
-/// ground and lanes know the device, by the core elsewhere.
+/// Device `index` with the seeds of its impacts that come `numbers` places after that of the scene: in lanes, as they take `records` where
+/// these alone move the ground, and by the core where lanes do not know the device.
 ///
 /// # Errors
 /// The first error of [`simulate`].
@@ -46,13 +46,9 @@ pub fn run(
         Subject::new(alone)
     };
     let subjects: Vec<Subject> = numbers.map(subject).collect();
-    let in_lanes = match records {
-        Some(records) => {
-            let runs: Vec<_> = subjects.iter().map(|subject| (subject, records.shaking(&subject.scene))).collect();
-            followed(&runs)
-        }
-        None => vec![None; subjects.len()],
-    };
+    let shaking = |subject: &Subject| records.map_or(Shaking::Any(ground), |records| records.shaking(&subject.scene));
+    let runs: Vec<_> = subjects.iter().map(|subject| (subject, shaking(subject))).collect();
+    let in_lanes = followed(&runs);
     let specimen = |(Subject { scene, .. }, in_lanes): (&Subject, Option<Followed>)| {
         let (outcome, peak, impacts) = match in_lanes {
             Some(Followed { motion, .. }) => {

@@ -15,9 +15,9 @@ use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::side_by_side::OnlyRecords;
 use sprag_sim::simulation::energy::write_energy;
 use sprag_sim::simulation::{DeviceRun, simulate};
-use sprag_sim::under_records::OnlyRecords;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};

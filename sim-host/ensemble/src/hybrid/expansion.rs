@@ -1,19 +1,21 @@
 //! The power series of one step of every block.
 
-use std::array::from_fn;
-
 use sprag_shared::math::power_series::Tape;
 use sprag_shared::math::scalar::Scalar;
 use sprag_shared::method::motion_series::{MotionSeries, StepSeries};
 
+use super::Kind;
 use super::located::LaneSeries;
 use crate::{Number, number};
 
 /// Coefficients of θ at least: as many as its and the guard's bounds look at.
 pub(super) const LEAST_TERMS: usize = 6;
 
-/// Coefficients of θ at most: as many as reach from one sample to the next.
-pub(super) const TERMS: usize = 14;
+/// Coefficients of θ under a record at most: as many as reach from one sample to the next.
+pub(super) const RECORD_TERMS: usize = 14;
+
+/// Coefficients of θ under any other motion.
+pub(super) const TERMS: usize = 16;
 
 /// Guards that lanes know: the command, and one of the plates of each flywheel.
 pub(super) const LANE_GUARDS: usize = 3;
@@ -50,23 +52,30 @@ impl Default for Expansion {
 }
 
 impl Expansion {
-    /// The series of one lane, whose step has this `length` (s), with so many coefficients of θ (`terms`); the others are zero.
-    pub(super) fn of_lane(&self, lane: usize, terms: usize, length: f64) -> LaneSeries {
-        fn of<const N: usize>(series: &[Number; N], lane: usize, terms: usize) -> [f64; N] {
-            from_fn(|k| if k < terms { series[k].0[lane] } else { 0.0 })
+    /// The series of one lane of this `kind`, whose step has this `length` (s); what lanes of the kind have not is zero.
+    pub(super) fn of_lane(&self, lane: usize, kind: Kind, length: f64) -> LaneSeries {
+        fn copy<const N: usize>(from: &[Number; N], lane: usize, terms: usize, to: &mut [f64; N]) {
+            for (to, from) in to.iter_mut().zip(&from[..terms]) {
+                *to = from.0[lane];
+            }
         }
-        let Expansion { motion: MotionSeries { rotation, velocity, acceleration }, guards, spins, .. } = self;
-        let rates = terms - 2;
-        let motion = MotionSeries {
-            rotation: of(rotation, lane, terms),
-            velocity: of(velocity, lane, terms - 1),
-            acceleration: of(acceleration, lane, rates),
-        };
-        LaneSeries {
-            motion: StepSeries { length, terms, motion },
-            guards: from_fn(|i| of(&guards[i], lane, rates)),
-            spins: from_fn(|i| of(&spins[i], lane, terms - 1)),
+        let Kind { terms, plates, .. } = kind;
+        let MotionSeries { rotation, velocity, acceleration } = &self.motion;
+        let mut motion = MotionSeries::default();
+        copy(rotation, lane, terms, &mut motion.rotation);
+        copy(velocity, lane, terms - 1, &mut motion.velocity);
+        copy(acceleration, lane, terms - 2, &mut motion.acceleration);
+        let (mut guards, mut spins) = ([[0.0; RATES]; LANE_GUARDS], [[0.0; TERMS]; 2]);
+        let watched = if plates { LANE_GUARDS } else { 1 };
+        for (from, to) in self.guards[..watched].iter().zip(&mut guards) {
+            copy(from, lane, terms - 2, to);
         }
+        if plates {
+            for (from, to) in self.spins.iter().zip(&mut spins) {
+                copy(from, lane, terms - 1, to);
+            }
+        }
+        LaneSeries { motion: StepSeries { length, terms, motion }, guards, spins }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The lanes: each block is at a sample of its own, and one whose record is over gives its lane to the next.
+//! The lanes: each block is where it is in its ground motion, and one whose motion is over gives its lane to the next.
 
 use std::array::from_fn;
 
@@ -9,7 +9,7 @@ use super::body::LaneBody;
 use super::expansion::Expansion;
 use super::seat::Seat;
 use super::stretch::{Stepped, Stretch};
-use super::{HybridBlock, HybridMotion, Kind};
+use super::{HybridBlock, HybridMotion, Kind, MOST_EVENTS};
 use crate::WIDTH;
 use crate::alone::TIGHT;
 
@@ -67,10 +67,10 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
     #[inline(never)]
     fn locate(&mut self, lane: usize, expansion: &Expansion, stepped: &Stepped, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
-        let (terms, length) = (self.stretch.kind.terms, self.stretch.length.0[lane]);
+        let (kind, length) = (self.stretch.kind, stepped.time.0[lane]);
         let step = |seat: &mut Seat<'_>, method: &dyn HybridLoop<f64>| {
             if stepped.converged.at(lane) {
-                seat.locate(&expansion.of_lane(lane, terms, length), stepped.pressed.at(lane))
+                seat.locate(&expansion.of_lane(lane, kind, length), stepped.pressed.at(lane))
             } else {
                 seat.step_by_core(method)
             }
@@ -80,14 +80,19 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
         }
     }
 
-    /// The block in `lane` is at the end of its record.
+    /// The block in `lane` is at the end of its record, or of a piece of any other motion.
     #[inline(never)]
     fn end(&mut self, lane: usize, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
-        if let Some((index, seat)) = self.seats[lane].take() {
-            results[index] = Some(seat.motion);
+        let next = |seat: &mut Seat<'_>, _: &dyn HybridLoop<f64>| {
+            if !seat.is_over() {
+                seat.go_on();
+            }
+            Ok(())
+        };
+        if !self.seat(lane, results, next) {
+            self.refill(lane, results);
         }
-        self.refill(lane, results);
     }
 
     /// What the lane knows of its block, to the core's state.
@@ -120,12 +125,15 @@ pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: 
                 lanes.locate(lane, &expansion, &stepped, results);
                 continue;
             }
-            seat.go_on();
             seat.motion.steps.plain += 1;
-            if seat.is_over() {
-                lanes.end(lane, results);
+            if seat.motion.steps.plain > MOST_EVENTS {
+                // The core says of it that it does not end.
+                lanes.seats[lane] = None;
+                lanes.refill(lane, results);
+            } else if seat.moves(stepped.time.0[lane]) {
+                lanes.stretch.stand_at(lane, seat);
             } else {
-                lanes.stretch.begin_at_sample(lane, seat);
+                lanes.end(lane, results);
             }
         }
     }

@@ -4,9 +4,10 @@ use sprag_shared::drivetrain::clutch_state::{Coupling, DeviceState, UNKNOWNS};
 use sprag_shared::drivetrain::scaled_parameters::ScaledParameters;
 use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::polynomial::{curvature_bound, first_zero, largest_magnitude, value};
+use sprag_shared::math::root::newton_bracketed;
 use sprag_shared::math::sign::Sign;
 use sprag_shared::method::dense_output::DenseOutput;
-use sprag_shared::method::motion_series::StepSeries;
+use sprag_shared::method::motion_series::{MotionSeries, StepSeries};
 use sprag_shared::motion::hybrid::mode_output::{ModeIntegrator, ModeOutput, ModeStart};
 
 use super::expansion::{LANE_GUARDS, RATES, TERMS};
@@ -46,7 +47,7 @@ impl ModeIntegrator<f64> for Expanded<'_> {
     fn integrate<'a>(&'a self, start: &'a ModeStart<'a, f64>) -> LaneOutput<'a> {
         LaneOutput {
             series: self.series,
-            length: start.length,
+            length: start.length.min(self.series.motion.length),
             parameters: &start.system.transmission.parameters,
             device: &self.device,
         }
@@ -64,6 +65,13 @@ impl DenseOutput<f64> for LaneOutput<'_> {
 
     fn at(&self, time: f64) -> Motion<f64> {
         self.series.motion.at(time)
+    }
+
+    fn crossing(&self, level: f64, before: Sign, (from, to): (f64, f64)) -> f64 {
+        let StepSeries { motion: MotionSeries { rotation, velocity, .. }, terms, .. } = &self.series.motion;
+        newton_bracketed(from, to, before, 0.5 * (from + to), |time| {
+            (value(&rotation[..*terms], time) - level, value(&velocity[..terms - 1], time))
+        })
     }
 
     fn largest_acceleration(&self, from: (f64, f64), to: (f64, f64), floor: f64) -> f64 {

@@ -1,12 +1,14 @@
-//! Blocks with real devices (coasting flywheels, losses, delays, capacity, vertical ground motion), or any device whose force is asked for, under
-//! records, side by side.
+//! Blocks with real devices (coasting flywheels, losses, delays, capacity, vertical ground motion), or any device whose force is asked for, side
+//! by side.
 //!
-//! Between events lanes follow the block's mode by its power series, eight at a time (`hybrid/stretch.rs`). On a step in which something may
+//! Between events lanes follow the block's mode by its power series, eight at a time (`hybrid/stretch.rs`): under a record from one sample to the
+//! next, under any other motion as far as the series reaches. On a step in which something may
 //! happen the series goes to the core (`hybrid/located.rs`): its own loop finds the first event in it, answers it, and hands the block back
 //! (`hybrid/seat.rs`). So every event is located and answered by the one source there is. Flywheels coast in closed form from one to the next.
 
 pub(crate) mod body;
 mod expansion;
+pub mod ground;
 pub(crate) mod lanes;
 mod located;
 mod seat;
@@ -28,36 +30,33 @@ use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::Geometry;
 
 use crate::alone::TIGHT;
-use crate::shaken::{Samples, Shaken};
-use expansion::{LEAST_TERMS, TERMS};
+use crate::shaken::Shaken;
+use expansion::{LEAST_TERMS, RECORD_TERMS, TERMS};
+use ground::{Ground, Sampled};
 use watch::Watch;
 
-/// Steps and events that the core may take between two samples, or after the record.
+/// Steps and events that the core may take in one interval of the ground, or after a record.
 const MOST_EVENTS: u32 = 2_000_000;
 
-/// A block with a device under a record, at rest at first.
+/// A block with a device on moving ground, at rest at first.
 #[derive(Clone, Copy, Debug)]
 pub struct HybridBlock<'a> {
     /// Equations, modes and guards.
     pub system: &'a HybridSystem<f64>,
     /// Counts as overturned when |θ| reaches α, even if the ground would bring it back.
     pub overturned_at_slenderness: bool,
-    /// Horizontal motion.
-    pub samples: &'a Samples,
-    /// Factor on it.
-    pub factor: f64,
-    /// Vertical motion of as many samples, and the factor on it; the system has it too.
-    pub vertical: Option<(&'a Samples, f64)>,
+    /// How the ground moves.
+    pub ground: Ground<'a>,
     /// Who looks at the force on the device's support; nobody where it is not asked for.
     pub checks: Option<&'a Checks<f64>>,
 }
 
-/// Motion of a block with a device up to the end of its record, or until it overturned.
+/// Motion of a block with a device to the end of its ground motion, or until it overturned.
 #[derive(Clone, Copy, Debug)]
 pub struct HybridMotion {
     /// State of block and device.
     pub state: HybridState<f64>,
-    /// Largest values and times, in rad and s from the record's start.
+    /// Largest values and times, in rad and s from the start of the ground motion.
     pub peaks: Peaks<f64>,
     /// Whoever looked at the force on the support ([`HybridMotion::support_force_ratio`]).
     checks: Option<Checks<f64>>,
@@ -86,14 +85,7 @@ impl HybridBlock<'_> {
 
     /// Whether lanes may take it.
     pub(crate) fn is_plain(&self) -> bool {
-        let HybridBlock { system, samples, factor, vertical, .. } = *self;
-        let matches = |(up, _): (&Samples, f64)| up.values.len() == samples.values.len() && up.step == samples.step;
-        HybridBlock::knows(system)
-            && (1e-9..1e3).contains(&samples.step)
-            && samples.values.len() > 1
-            && (1e-9..1e4).contains(&(samples.bounds[0] * factor.abs()))
-            && vertical.is_none_or(matches)
-            && self.lightest() > 0.1
+        HybridBlock::knows(self.system) && self.ground.is_plain()
     }
 
     fn geometry(&self) -> Geometry {
@@ -107,32 +99,29 @@ impl HybridBlock<'_> {
         Kind {
             geometry: self.geometry(),
             consistent: matches!(self.system.body, AnyBody::Full(body) if body.consistent),
-            vertical: self.vertical.is_some(),
+            vertical: self.ground.is_vertical(),
+            curved: matches!(self.ground, Ground::Pieces(_)),
             plates: self.system.transmission.kind == TransmissionKind::Friction,
             forces: self.checks.is_some(),
             terms: self.terms(),
         }
     }
 
-    /// Coefficients of θ that reach to the next sample.
+    /// Coefficients of θ that reach to the next sample, or far.
     fn terms(&self) -> usize {
+        let Ground::Record(Sampled { samples, .. }) = self.ground else { return TERMS };
         /// The first term left out, over α, by the block's own rate: so far below rounding that it never shows, however strong the ground and
         /// however the motion magnifies it.
         const LEFT_OUT: f64 = 1e-22;
-        let step = self.samples.step * self.system.speed / self.system.slenderness;
+        let step = samples.step * self.system.speed / self.system.slenderness;
         let mut term = 1.0;
-        for order in 1..TERMS {
+        for order in 1..RECORD_TERMS {
             term *= step / order as f64;
             if term < LEFT_OUT {
                 return order.max(LEAST_TERMS);
             }
         }
-        TERMS
-    }
-
-    /// Lower bound of 1 + v̈_g/g.
-    fn lightest(&self) -> f64 {
-        1.0 - self.vertical.map_or(0.0, |(up, factor)| up.bounds.first().map_or(0.0, |bound| bound * factor.abs()))
+        RECORD_TERMS
     }
 
     /// |θ| (rad) at which an outward motion counts as overturned, while the ground stays within ±`bound` (in g).
@@ -141,9 +130,8 @@ impl HybridBlock<'_> {
             _ if self.overturned_at_slenderness => self.system.slenderness,
             // It lies on the ground.
             Geometry::Full => FRAC_PI_2,
-            Geometry::Slender => {
-                Geometry::Slender.point_of_no_return(self.system.slenderness, self.system.push_bound(bound, 0.0, self.lightest()))
-            }
+            Geometry::Slender => Geometry::Slender
+                .point_of_no_return(self.system.slenderness, self.system.push_bound(bound, 0.0, self.ground.lightest())),
         }
     }
 }
@@ -157,6 +145,8 @@ pub(crate) struct Kind {
     pub(crate) consistent: bool,
     /// The ground moves vertically too.
     pub(crate) vertical: bool,
+    /// The ground moves along no straight lines, and steps are as long as their series reach.
+    pub(crate) curved: bool,
     /// Clutches with plates.
     pub(crate) plates: bool,
     /// Forces are looked at.
@@ -166,7 +156,7 @@ pub(crate) struct Kind {
 }
 
 impl HybridMotion {
-    /// `block` `free_time` (s) after its record.
+    /// `block` `free_time` (s) after its ground motion.
     ///
     /// # Errors
     /// The core's.
@@ -174,7 +164,8 @@ impl HybridMotion {
         if self.state.motion.phase != Phase::Overturned {
             let limits = Limits { overturned: block.overturned(0.0), events: MOST_EVENTS };
             let quiet = Shaking::level(&Harmonics::QUIET);
-            let (state, mut watch) = self.watched(block.samples.duration());
+            let last = block.ground.intervals() - 1;
+            let (state, mut watch) = self.watched(block.ground.start(last) + block.ground.length(last));
             hybrid(Method::Adaptive(TIGHT)).advance(block.system, state, quiet, free_time, &limits, &mut watch)?;
         }
         Ok(self)

@@ -2,25 +2,24 @@
 
 use sprag_loops::HybridLoop;
 use sprag_shared::drivetrain::clutch_state::{Guard, ModeCoefficients};
-use sprag_shared::ground::{GroundSegment, Linear};
 use sprag_shared::motion::hybrid::Progress;
-use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::state::{Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
 
+use super::ground::{Ground, Sampled};
 use super::located::{Expanded, LaneSeries};
 use super::{HybridBlock, HybridMotion, MOST_EVENTS, Steps};
 
 /// Share of the uplift threshold below which the core need not look at a block that stands.
 const QUIET: f64 = 0.999_999;
 
-/// A block, where it is in its record, and its state there.
+/// A block, where it is in its ground motion, and its state there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat<'a> {
     pub(super) block: HybridBlock<'a>,
-    /// The last sample.
-    pub(super) sample: usize,
-    /// How far the core is beyond it.
+    /// Interval of the ground motion.
+    pub(super) interval: usize,
+    /// How far it is into it.
     pub(super) progress: Progress<f64>,
     pub(super) motion: HybridMotion,
 }
@@ -33,60 +32,67 @@ impl<'a> Seat<'a> {
             checks: block.checks.copied(),
             steps: Steps::default(),
         };
-        Seat { block, sample: 0, progress: Progress::default(), motion }
+        Seat { block, interval: 0, progress: Progress::default(), motion }
     }
 
-    fn last(&self) -> usize {
-        self.block.samples.values.len() - 1
-    }
-
-    /// Whether the record is over or the block has overturned.
+    /// Whether the ground motion is over or the block has overturned.
     #[inline(always)]
     pub(super) fn is_over(&self) -> bool {
-        self.sample >= self.last() || self.motion.state.motion.phase == Phase::Overturned
-    }
-
-    /// Ground acceleration (in g) at `sample`.
-    #[inline(always)]
-    pub(super) fn ground(&self, sample: usize) -> [f64; 2] {
-        let HybridBlock { samples, factor, vertical, .. } = self.block;
-        [factor * samples.values[sample], vertical.map_or(0.0, |(up, factor)| factor * up.values[sample])]
-    }
-
-    /// Ground acceleration up to the next sample, horizontal and vertical.
-    #[inline(always)]
-    pub(super) fn lines(&self) -> [Linear<f64>; 2] {
-        let (from, to) = (self.ground(self.sample), self.ground(self.sample + 1));
-        [0, 1].map(|way| Linear::between(from[way], to[way], self.block.samples.step))
+        self.interval >= self.block.ground.intervals() || self.motion.state.motion.phase == Phase::Overturned
     }
 
     /// |θ| (rad) at which an outward motion counts as overturned from here on.
     #[inline(always)]
     pub(super) fn overturned(&self) -> f64 {
-        self.block.overturned(self.block.factor.abs() * self.block.samples.bounds[self.sample])
+        self.block.overturned(self.block.ground.bound(self.interval))
     }
 
-    /// The lane is at a new sample.
+    /// Time to the end of the interval, s.
+    #[inline(always)]
+    pub(super) fn left(&self) -> f64 {
+        self.block.ground.length(self.interval) - self.progress.time
+    }
+
+    /// The lane has followed it for `time` (s); whether it goes on from there, which is not the end of a record nor of a piece.
+    #[inline(always)]
+    pub(super) fn moves(&mut self, time: f64) -> bool {
+        if let Ground::Record(_) = self.block.ground {
+            self.go_on();
+            return !self.is_over();
+        }
+        let left = self.left();
+        self.progress = Progress::at(self.progress.time + time.min(left));
+        time < left
+    }
+
+    /// It is at a new interval.
     #[inline(always)]
     pub(super) fn go_on(&mut self) {
-        self.sample += 1;
+        self.interval += 1;
         self.progress = Progress::default();
+    }
+
+    /// At the start of an interval the ground may have jumped.
+    fn begin(&mut self) {
+        if self.progress.time == 0.0 {
+            let (ground, system) = (self.block.ground, self.block.system);
+            let (state, mut watch) = self.motion.watched(ground.start(self.interval));
+            ground.over(self.interval, |shaking| system.ground_at_start(state, shaking.at(0.0), &mut watch));
+        }
     }
 
     /// One step of the core's loop: by its own series, or by that which a lane has expanded. Without `pressed` no force is larger than ever.
     fn step(&mut self, method: &dyn HybridLoop<f64>, pressed: bool) -> Result<(), Stopped> {
-        let [level, up] = self.lines();
-        let vertical = self.block.vertical.map(|_| &up as &dyn GroundSegment<f64>);
-        let shaking = Shaking { horizontal: &level, vertical, support: None };
+        self.begin();
         let limits = Limits { overturned: self.overturned(), events: MOST_EVENTS };
-        let step = self.block.samples.step;
-        let (state, mut watch) = self.motion.watched(step * self.sample as f64);
+        let HybridBlock { system, ground, .. } = self.block;
+        let length = ground.length(self.interval);
+        let (state, mut watch) = self.motion.watched(ground.start(self.interval));
         watch.checks = watch.checks.filter(|_| pressed);
-        if self.progress.time == 0.0 {
-            self.block.system.ground_at_start(state, shaking.at(0.0), &mut watch);
-        }
-        method.step(self.block.system, state, (shaking, step), &mut self.progress, &limits, &mut watch)?;
-        if self.progress.time >= step {
+        ground.over(self.interval, |shaking| {
+            method.step(system, state, (shaking, length), &mut self.progress, &limits, &mut watch)
+        })?;
+        if self.progress.time >= length {
             self.go_on();
         }
         Ok(())
@@ -107,28 +113,29 @@ impl<'a> Seat<'a> {
         Ok(())
     }
 
-    /// Skips intervals on which the ground cannot lift a block that stands.
+    /// Skips intervals on which the lines of a record cannot lift a block that stands.
     fn stand(&mut self) {
-        let HybridBlock { system, samples, factor, vertical, .. } = self.block;
+        let HybridBlock { system, ground: Ground::Record(record), .. } = self.block else { return };
         // The threshold grows linearly with the weight; on straight lines the largest excess is at a sample.
         let [weightless, whole] = [0.0, 1.0].map(|weight| QUIET * system.least_uplift(&self.motion.state, weight));
         let lifts = |sample: usize| {
-            let [level, up] = self.ground(sample);
+            let [level, up] = record.at(sample);
             level.abs() > weightless + (whole - weightless) * (1.0 + up)
         };
-        if lifts(self.sample) {
+        if lifts(self.interval) {
             return;
         }
+        let Sampled { samples, factor, vertical } = record;
+        let last = self.block.ground.intervals();
         let beyond = match vertical {
-            None => samples.beyond(self.sample, whole / factor.abs()),
-            Some(_) => (self.sample + 1..samples.values.len()).find(|sample| lifts(*sample)),
+            None => samples.beyond(self.interval, whole / factor.abs()),
+            Some(_) => (self.interval + 1..=last).find(|sample| lifts(*sample)),
         };
-        let until = beyond.map_or(self.last(), |beyond| beyond - 1);
-        if until > self.sample {
-            let time = samples.step * (until - self.sample) as f64 - self.progress.time;
-            let ground = self.ground(until);
-            system.has_stood(&mut self.motion.state, time, ground);
-            (self.sample, self.progress) = (until, Progress::default());
+        let until = beyond.map_or(last, |beyond| beyond - 1);
+        if until > self.interval {
+            let time = samples.step * (until - self.interval) as f64 - self.progress.time;
+            system.has_stood(&mut self.motion.state, time, record.at(until));
+            (self.interval, self.progress) = (until, Progress::default());
         }
     }
 
@@ -152,20 +159,31 @@ impl<'a> Seat<'a> {
                 if self.is_over() {
                     break;
                 }
-            } else if let Some(law) = self.block.system.mode(&self.motion.state)
-                && self.knows(&law)
-            {
-                return Ok(Some(law));
+            } else {
+                if matches!(self.block.ground, Ground::Pieces(_)) {
+                    self.begin();
+                }
+                if let Some(law) = self.block.system.mode(&self.motion.state)
+                    && self.knows(&law)
+                {
+                    return Ok(Some(law));
+                }
             }
             self.step_by_core(method)?;
         }
         Ok(None)
     }
 
-    /// The lane has taken the block to (θ, θ̇) at its sample, and flywheels whose plates slip to the speeds `spins`, in `time` (s) since the
-    /// core had it.
+    /// The lane has taken the block to (θ, θ̇) where it is in its ground motion, and flywheels whose plates slip to the speeds `spins`, in
+    /// `time` (s) since the core had it.
     pub(super) fn take(&mut self, place: (f64, f64), spins: [f64; 2], time: f64) {
-        let ground = self.ground(self.sample);
+        let ground = match &self.block.ground {
+            Ground::Record(record) => record.at(self.interval),
+            ground => ground.over(self.interval, |shaking| {
+                let [level, up, _] = shaking.at(self.progress.time);
+                [level, up]
+            }),
+        };
         self.block.system.has_moved(&mut self.motion.state, place, spins, time, ground);
     }
 }

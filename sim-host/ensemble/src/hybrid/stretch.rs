@@ -1,4 +1,4 @@
-//! One step of several blocks in their modes, from one sample to the next, of those on which nothing can happen in between.
+//! One step of several blocks in their modes, of those on which nothing can happen in between.
 
 use std::cell::Cell;
 
@@ -17,6 +17,7 @@ use super::expansion::{Expansion, RATES, TERMS, bend_of};
 use super::seat::Seat;
 use super::{HybridMotion, Kind};
 use crate::polynomial::{largest_in_lane, value};
+use crate::series::rough_power;
 use crate::{Mask, Number, WIDTH, number};
 
 /// Largest of the last terms of θ and of the one before, over α. The first one that θ̇ leaves out, over pα, is as large as the last one of θ:
@@ -42,12 +43,14 @@ struct Plates {
 /// Blocks after a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stepped {
-    /// Those that are at their next samples.
+    /// Those that are at the end of their steps.
     pub(super) plain: Mask,
     /// Those whose series hold up to there.
     pub(super) converged: Mask,
     /// Those of which the force on the support may be larger than ever.
     pub(super) pressed: Mask,
+    /// Lengths of the steps, s.
+    pub(super) time: Number,
 }
 
 /// Blocks in their modes, one in each lane; SI units.
@@ -66,16 +69,16 @@ pub(super) struct Stretch<B> {
     watched: Number,
     /// α, rad.
     slenderness: Number,
+    /// 1/p, s.
+    unit: Number,
     /// θ, rad.
     pub(super) rotation: Number,
     /// θ̇, rad/s.
     pub(super) velocity: Number,
-    /// Ground acceleration now, in g, horizontal and vertical.
-    ground: [Number; 2],
-    /// Its slope up to the next sample, g/s.
-    slope: [Number; 2],
-    /// Time to the next sample, s.
-    pub(super) length: Number,
+    /// Coefficients of the ground acceleration about now, in g, horizontal and vertical.
+    ground: [[Number; RATES]; 2],
+    /// Time to the end of the interval, s.
+    length: Number,
     /// Time since the core had the block, s.
     pub(super) elapsed: Number,
     /// Time until something is due, s.
@@ -103,10 +106,10 @@ impl<B: LaneBody> Stretch<B> {
             side: one,
             watched: zero,
             slenderness: one,
+            unit: one,
             rotation: zero,
             velocity: zero,
-            ground: [zero; 2],
-            slope: [zero; 2],
+            ground: [[zero; RATES]; 2],
             length: one,
             elapsed: zero,
             due: number(f64::INFINITY),
@@ -120,7 +123,7 @@ impl<B: LaneBody> Stretch<B> {
     /// Another block in `lane`.
     pub(super) fn renew(&mut self, lane: usize, system: &HybridSystem<f64>) {
         self.body.renew(lane, &system.body);
-        self.slenderness.0[lane] = system.slenderness;
+        (self.slenderness.0[lane], self.unit.0[lane]) = (system.slenderness, system.slenderness / system.speed);
         let ScaledParameters { inertance, mobility, bearing_rate, bearing_dry, .. } = system.transmission.parameters;
         (self.parameters.inertance.0[lane], self.parameters.mobility.0[lane]) = (inertance, mobility);
         (self.parameters.bearing_rate.0[lane], self.parameters.bearing_dry.0[lane]) = (bearing_rate, bearing_dry);
@@ -143,7 +146,7 @@ impl<B: LaneBody> Stretch<B> {
         self.elapsed.0[lane] = 0.0;
         self.due.0[lane] = seat.block.system.next_due(state).unwrap_or(f64::INFINITY);
         (self.peak_rotation.0[lane], self.peak_acceleration.0[lane]) = (peaks.rotation, peaks.acceleration);
-        self.stand_at(lane, seat, seat.progress.time);
+        self.stand_at(lane, seat);
     }
 
     fn set_plates(&mut self, lane: usize, device: &DeviceState<f64>, law: &ModeCoefficients<f64>) {
@@ -167,30 +170,25 @@ impl<B: LaneBody> Stretch<B> {
         self.plates.spin.map(|spin| spin.0[lane])
     }
 
-    /// The block in `lane` is at its `seat`'s sample.
+    /// The block in `lane` is where its `seat` is in its ground motion.
     #[inline(always)]
-    pub(super) fn begin_at_sample(&mut self, lane: usize, seat: &Seat<'_>) {
-        self.stand_at(lane, seat, 0.0);
-    }
-
-    /// The block in `lane` is `time` (s) beyond its `seat`'s sample.
-    #[inline(always)]
-    fn stand_at(&mut self, lane: usize, seat: &Seat<'_>, time: f64) {
-        for (way, line) in seat.lines().into_iter().enumerate() {
-            self.ground[way].0[lane] = line.start + line.slope * time;
-            self.slope[way].0[lane] = line.slope;
-        }
-        self.length.0[lane] = seat.block.samples.step - time;
+    pub(super) fn stand_at(&mut self, lane: usize, seat: &Seat<'_>) {
+        let (ground, rates) = (&mut self.ground, self.kind.terms - 2);
+        seat.block.ground.series(seat.interval, seat.progress.time, rates, |way, order, coefficient| {
+            ground[way][order].0[lane] = coefficient;
+        });
+        self.length.0[lane] = seat.left();
         self.overturned.0[lane] = seat.overturned();
     }
 
-    /// Follows every block to its next sample. Those on which an event may lie before that are left where they are.
+    /// Follows every block to its next sample, or as far as its series reaches. Those on which an event may lie before that are left where they
+    /// are.
     #[inline(always)]
     pub(super) fn step(&mut self, expansion: &mut Expansion) -> Stepped {
         let nothing = number(0.0);
         self.expand(expansion);
         let Expansion { motion: series, guards, spins, force, .. } = &*expansion;
-        let time = self.length;
+        let time = if self.kind.curved { self.length.smaller(self.reach(&*expansion)) } else { self.length };
         let half_square = number(0.125) * (time * time);
 
         // Bounds of the second derivatives of θ̈ and θ̇ over the step.
@@ -258,7 +256,7 @@ impl<B: LaneBody> Stretch<B> {
         }
         self.elapsed = clean.choose(self.elapsed + time, self.elapsed);
         self.due = clean.choose(self.due - time, self.due);
-        Stepped { plain: clean, converged, pressed }
+        Stepped { plain: clean, converged, pressed, time }
     }
 
     /// The series of the motion and of the guard.
@@ -278,17 +276,7 @@ impl<B: LaneBody> Stretch<B> {
         }
         for (k, force) in force.iter_mut().enumerate() {
             for way in 0..2 {
-                tape.set(
-                    2 + way,
-                    k,
-                    if k == 0 {
-                        self.ground[way]
-                    } else if k == 1 {
-                        self.slope[way]
-                    } else {
-                        zero
-                    },
-                );
+                tape.set(2 + way, k, self.ground[way][k]);
             }
             tape.set(4, k, if k == 1 { number(1.0) } else { zero });
             next.set(GIVEN);
@@ -333,6 +321,27 @@ impl<B: LaneBody> Stretch<B> {
                 break;
             }
         }
+    }
+
+    /// How far the last two terms of θ, and of the speeds of plates that slip, stay small (Jorba and Zou's two-term rule).
+    #[inline(always)]
+    fn reach(&self, expansion: &Expansion) -> Number {
+        let last = self.kind.terms - 1;
+        let size = self.slenderness.larger(self.rotation.abs());
+        let along = |order: usize, coefficient: Number| {
+            // Above zero, so that the ratio is finite.
+            let coefficient = coefficient.abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
+            rough_power(number(LAST) * size / coefficient, RECIPROCALS[order & 63])
+        };
+        let rotation = &expansion.motion.rotation;
+        let mut reach = along(last, rotation[last]).smaller(along(last - 1, rotation[last - 1]));
+        if self.kind.plates {
+            for spin in &expansion.spins {
+                // A speed that matters is pα.
+                reach = reach.smaller(along(last - 1, spin[last - 1] * self.unit));
+            }
+        }
+        reach * number(0.9)
     }
 
     /// Whether the last two terms of θ are so small that the first one left out does not matter.

@@ -1,5 +1,6 @@
 //! What becomes of the blocks of a map, many at once.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 
 use sprag_ensemble::machine::{Registers, run};
@@ -13,9 +14,10 @@ use crate::closed_loop::{LoopFailure, LoopScene};
 use crate::interrupt::Interrupt;
 use crate::scene::controller::LawName;
 use crate::scene::ground::GroundError;
+use crate::scene::motions::GroundMotions;
 use crate::scene::{Scene, SceneError};
+use crate::side_by_side::{self, Shaking, followed};
 use crate::simulation::{DeviceRun, RunError, simulate_for_study};
-use crate::under_records::{self, followed};
 
 /// Reasons why a block of a map could not be followed.
 #[derive(Debug, thiserror::Error)]
@@ -81,10 +83,8 @@ pub fn results_by<E: Display>(
             }
             Subject::Scene(scene) => {
                 let scene = scene.only(of.device);
-                match grid.shaking(&scene) {
-                    Some(shaking) => shaken.push((under_records::Subject::new(scene), shaking, index)),
-                    None => results[index] = simulated(&scene, || grid.place(values), interrupt)?,
-                }
+                let ground = if grid.shaking(&scene).is_none() { Some(scene.ground_motions()?) } else { None };
+                shaken.push((side_by_side::Subject::new(scene), ground, index));
             }
             Subject::Loop(scene, law) => results[index] = looped(&scene, law, || grid.place(values), interrupt)?,
         }
@@ -97,20 +97,32 @@ pub fn results_by<E: Display>(
     for (result, index) in found.into_iter().zip(pulsed_places) {
         results[index] = result;
     }
-    let runs: Vec<_> = shaken.iter().map(|(subject, shaking, _)| (subject, *shaking)).collect();
-    for (found, (subject, _, index)) in followed(&runs).into_iter().zip(&shaken) {
+    let mut runs = Vec::with_capacity(shaken.len());
+    for (subject, ground, _) in &shaken {
+        let shaking = ground.as_ref().map(Shaking::Any).or_else(|| grid.shaking(&subject.scene));
+        runs.extend(shaking.map(|shaking| (subject, shaking)));
+    }
+    for ((subject, ground, index), found) in shaken.iter().zip(followed(&runs)) {
         results[*index] = match found {
             Some(found) => PulseResult::of_shaken(&found.motion, &subject.scene.block),
-            None => simulated(&subject.scene, || grid.place(places[*index]), interrupt)?,
+            None => {
+                let ground =
+                    ground.as_ref().map_or_else(|| subject.scene.ground_motions().map(Cow::Owned), |g| Ok(Cow::Borrowed(g)))?;
+                simulated(&subject.scene, &ground, || grid.place(places[*index]), interrupt)?
+            }
         };
     }
     Ok(results)
 }
 
 /// A block simulated as the scene that it is, which has one device; `place` says where it is on the map.
-fn simulated(scene: &Scene, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, CellError> {
-    let ground = scene.ground_motions()?;
-    let runs = simulate_for_study(scene, &ground, interrupt).map_err(|error| match error {
+fn simulated(
+    scene: &Scene,
+    ground: &GroundMotions,
+    place: impl Fn() -> String,
+    interrupt: &Interrupt,
+) -> Result<PulseResult, CellError> {
+    let runs = simulate_for_study(scene, ground, interrupt).map_err(|error| match error {
         RunError::Interrupted => CellError::Interrupted,
         error => CellError::Run { place: place(), error },
     })?;

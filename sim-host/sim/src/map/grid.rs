@@ -12,7 +12,7 @@ use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
 use crate::scene::{Scene, SceneDevice, SceneError};
-use crate::under_records::{self, OnlyRecords, Shaking};
+use crate::side_by_side::{self, OnlyRecords, Shaking};
 
 /// A scene with the axes of its map.
 #[derive(Clone, Debug)]
@@ -138,11 +138,11 @@ impl Grid {
         if law.is_some() {
             return 1;
         }
-        match (&self.direct[index], pulsed(&self.scene, device), &self.record) {
-            (Some(_), ..) => 2048,
-            (None, Some(_), _) => 256,
-            (None, None, Some(_)) if under_records::Subject::new(self.scene.only(device)).is_known() => 64,
-            (None, None, _) => 1,
+        match (&self.direct[index], pulsed(&self.scene, device)) {
+            (Some(_), _) => 2048,
+            (None, Some(_)) => 256,
+            _ if side_by_side::Subject::new(self.scene.only(device)).is_known(self.record.is_some()) => 64,
+            _ => 1,
         }
     }
 

@@ -88,7 +88,7 @@ impl<'a> Course<'a> {
 
     /// The block's weight at its lightest, over its weight at rest.
     pub fn lightest(&self) -> f64 {
-        1.0 + self.vertical.map_or(0.0, |vertical| vertical.lowest().0).min(0.0)
+        self.vertical.map_or(1.0, GroundMotion::lightest)
     }
 
     /// As [`Course::angle`], for a device ([`HybridSystem::push_bound`]).

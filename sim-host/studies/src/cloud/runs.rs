@@ -10,8 +10,8 @@ use sprag_sim::accuracy::{ErrorEstimate, Worst};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::side_by_side::{self, Followed, Subject, followed};
 use sprag_sim::simulation::{RunError, simulate_for_study};
-use sprag_sim::under_records::{self, Followed, Subject, followed};
 
 use super::measure::Measure;
 use super::records::StudyRecord;
@@ -280,7 +280,7 @@ impl Target<'_> {
             return vec![None; shakings.len()];
         }
         let level = |shaking: &Shaking<'_>| (&samples[shaking.record], shaking.factor);
-        let run = |shaking| (subject, under_records::Shaking { level: level(shaking), vertical: None });
+        let run = |shaking| (subject, side_by_side::Shaking::Record { level: level(shaking), vertical: None });
         let found = followed(&shakings.iter().map(run).collect::<Vec<_>>());
         let answer = |(shaking, found): (_, Option<Followed>)| {
             Some(Answer::shaken(&found?.motion, &subject.scene, level(shaking).0.duration()))

@@ -12,8 +12,8 @@ use sprag_sim::scene::drivetrain::{BrakeValue, BrakeWord, ClutchTable};
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::scene::{Scene, SceneDevice, SceneError};
 use sprag_sim::sensor::Suite;
+use sprag_sim::side_by_side;
 use sprag_sim::simulation::{DeviceRun, RunError, simulate};
-use sprag_sim::under_records;
 
 use super::asked::Asked;
 use crate::sensitivity::answer::{Answer, Missing, answers};
@@ -145,7 +145,7 @@ impl Subject {
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Result<Answer, String>>, RunError> {
         if self.controlled.is_none() {
-            let subject = under_records::Subject::new(self.scene.clone());
+            let subject = side_by_side::Subject::new(self.scene.clone());
             return words(answers(&subject, false, motions, interrupt, done), interrupt);
         }
         let one = |motion: &StudyMotion| {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use sprag_ensemble::shaken::Samples;
 use sprag_sim::scene::motions::GroundMotions;
-use sprag_sim::under_records;
+use sprag_sim::side_by_side;
 
 use super::pulse::Pulse;
 use crate::cloud::records::StudyRecord;
@@ -51,11 +51,11 @@ impl Motion<'_> {
         }
     }
 
-    /// As lanes take it, if they do.
-    pub fn in_lanes(&self) -> Option<under_records::Shaking<'_>> {
+    /// As lanes take it.
+    pub fn in_lanes(&self) -> side_by_side::Shaking<'_> {
         match &self.shaking {
-            Shaking::Record { samples, .. } => Some(under_records::Shaking { level: (samples, self.factor), vertical: None }),
-            Shaking::Pulse(_) => None,
+            Shaking::Record { samples, .. } => side_by_side::Shaking::Record { level: (samples, self.factor), vertical: None },
+            Shaking::Pulse(ground) => side_by_side::Shaking::Any(ground),
         }
     }
 

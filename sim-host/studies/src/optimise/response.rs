@@ -3,8 +3,8 @@
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::ErrorEstimate;
+use sprag_sim::side_by_side::{DeviceDemand, Followed};
 use sprag_sim::simulation::DeviceRun;
-use sprag_sim::under_records::{DeviceDemand, Followed};
 
 /// A response.
 #[derive(Clone, Copy, Debug, PartialEq)]

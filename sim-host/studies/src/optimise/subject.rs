@@ -3,8 +3,8 @@
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::motions::GroundMotions;
+use sprag_sim::side_by_side::{self, Followed, followed};
 use sprag_sim::simulation::simulate_for_study;
-use sprag_sim::under_records::{self, followed};
 
 use super::motion::Motion;
 use super::response::Response;
@@ -14,7 +14,7 @@ use super::specimen::Specimen;
 #[derive(Clone, Debug)]
 pub struct Subject {
     /// The block with the device alone.
-    block: under_records::Subject,
+    block: side_by_side::Subject,
     #[cfg(feature = "effects")]
     controlled: Option<Controlled>,
 }
@@ -49,7 +49,7 @@ impl Subject {
             None => None,
         };
         Ok(Subject {
-            block: under_records::Subject::watched(scene),
+            block: side_by_side::Subject::watched(scene),
             #[cfg(feature = "effects")]
             controlled,
         })
@@ -57,18 +57,13 @@ impl Subject {
 
     /// What it does under each of `motions` where lanes can know.
     pub fn in_lanes(&self, motions: &[Motion<'_>]) -> Vec<Option<Response>> {
-        let mut found = vec![None; motions.len()];
         #[cfg(feature = "effects")]
         if self.controlled.is_some() {
-            return found;
+            return vec![None; motions.len()];
         }
-        let indexed = motions.iter().enumerate();
-        let shaken: Vec<_> = indexed.filter_map(|(index, motion)| Some((index, motion.in_lanes()?))).collect();
-        let runs: Vec<_> = shaken.iter().map(|(_, shaking)| (&self.block, *shaking)).collect();
-        for ((index, _), followed) in shaken.iter().zip(followed(&runs)) {
-            found[*index] = followed.and_then(|followed| Response::of_followed(&followed, &self.block.scene.block));
-        }
-        found
+        let runs: Vec<_> = motions.iter().map(|motion| (&self.block, motion.in_lanes())).collect();
+        let response = |found: Option<Followed>| Response::of_followed(&found?, &self.block.scene.block);
+        followed(&runs).into_iter().map(response).collect()
     }
 
     /// What it does under `ground`, by the core.

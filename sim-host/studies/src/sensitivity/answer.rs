@@ -6,8 +6,8 @@ use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::Block;
 use sprag_sim::accuracy::ErrorEstimate;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::side_by_side::{Followed, Subject, followed};
 use sprag_sim::simulation::{DeviceRun, RunError, simulate_for_study};
-use sprag_sim::under_records::{Followed, Subject, followed};
 
 use super::motion::StudyMotion;
 

@@ -7,7 +7,7 @@ use sprag_sim::record::RecordSummary;
 use sprag_sim::scene::ground::{GroundError, Motion};
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::scene::{Scene, SceneError};
-use sprag_sim::under_records::Shaking;
+use sprag_sim::side_by_side::Shaking;
 
 use super::variants::VERTICAL_RATIO;
 
@@ -93,13 +93,17 @@ impl StudyMotion {
         Ok(StudyMotion { own, name, ground, with_vertical, records, samples, vertical_samples })
     }
 
-    /// As lanes take it, with the vertical motion or without; none where they do not.
+    /// As lanes take it, with the vertical motion or without; none where there is none.
     pub fn shaking(&self, vertical: bool) -> Option<Shaking<'_>> {
         fn of((samples, factor): &(Samples, f64)) -> (&Samples, f64) {
             (samples, *factor)
         }
-        let up = if vertical { Some(of(self.vertical_samples.as_ref()?)) } else { None };
-        Some(Shaking { level: of(self.samples.as_ref()?), vertical: up })
+        Some(match (&self.samples, &self.vertical_samples) {
+            (Some(level), Some(up)) if vertical => Shaking::Record { level: of(level), vertical: Some(of(up)) },
+            (Some(level), _) if !vertical => Shaking::Record { level: of(level), vertical: None },
+            _ if vertical => Shaking::Any(self.with_vertical.as_ref().ok()?),
+            _ => Shaking::Any(&self.ground),
+        })
     }
 }
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::side_by_side::Subject;
 use sprag_sim::simulation::RunError;
-use sprag_sim::under_records::Subject;
 
 use super::answer::{Answer, Missing, answers};
 use super::motion::{StudyMotion, with_vertical};
