@@ -6,6 +6,7 @@ use sprag_shared::method::motion_series::{MotionSeries, StepSeries};
 
 use super::Kind;
 use super::located::LaneSeries;
+use super::stretch::Stepped;
 use crate::{Number, number};
 
 /// Coefficients of θ at least: as many as its and the guard's bounds look at.
@@ -36,6 +37,8 @@ pub(super) struct Expansion {
     pub(super) spins: [[Number; TERMS]; 2],
     /// Force of both flywheels together on their support; |F|/(λmR), 1/s².
     pub(super) force: [Number; RATES],
+    /// The series of one lane, for the core.
+    pub(super) one: LaneSeries,
 }
 
 impl Default for Expansion {
@@ -47,35 +50,41 @@ impl Default for Expansion {
             guards: [none; LANE_GUARDS],
             spins: [[number(0.0); TERMS]; 2],
             force: none,
+            one: LaneSeries {
+                motion: StepSeries::new(0.0),
+                guards: [[0.0; RATES]; LANE_GUARDS],
+                spins: [[0.0; TERMS]; 2],
+                goes_on: false,
+                guarded: false,
+            },
         }
     }
 }
 
 impl Expansion {
-    /// The series of one lane of this `kind`, whose step has this `length` (s); what lanes of the kind have not is zero.
-    pub(super) fn of_lane(&self, lane: usize, kind: Kind, length: f64) -> LaneSeries {
+    /// Takes out the series of one lane of this `kind`, which has `stepped`; what lanes of the kind have not stays zero.
+    pub(super) fn take_out(&mut self, lane: usize, kind: Kind, stepped: &Stepped) {
         fn copy<const N: usize>(from: &[Number; N], lane: usize, terms: usize, to: &mut [f64; N]) {
             for (to, from) in to.iter_mut().zip(&from[..terms]) {
                 *to = from.0[lane];
             }
         }
         let Kind { terms, plates, .. } = kind;
-        let MotionSeries { rotation, velocity, acceleration } = &self.motion;
-        let mut motion = MotionSeries::default();
-        copy(rotation, lane, terms, &mut motion.rotation);
-        copy(velocity, lane, terms - 1, &mut motion.velocity);
-        copy(acceleration, lane, terms - 2, &mut motion.acceleration);
-        let (mut guards, mut spins) = ([[0.0; RATES]; LANE_GUARDS], [[0.0; TERMS]; 2]);
+        let Expansion { motion: MotionSeries { rotation, velocity, acceleration }, guards, spins, one, .. } = self;
+        (one.motion.length, one.motion.terms) = (stepped.time.0[lane], terms);
+        (one.goes_on, one.guarded) = (stepped.goes_on.at(lane), stepped.guarded.at(lane));
+        copy(rotation, lane, terms, &mut one.motion.motion.rotation);
+        copy(velocity, lane, terms - 1, &mut one.motion.motion.velocity);
+        copy(acceleration, lane, terms - 2, &mut one.motion.motion.acceleration);
         let watched = if plates { LANE_GUARDS } else { 1 };
-        for (from, to) in self.guards[..watched].iter().zip(&mut guards) {
+        for (from, to) in guards[..watched].iter().zip(&mut one.guards) {
             copy(from, lane, terms - 2, to);
         }
         if plates {
-            for (from, to) in self.spins.iter().zip(&mut spins) {
+            for (from, to) in spins.iter().zip(&mut one.spins) {
                 copy(from, lane, terms - 1, to);
             }
         }
-        LaneSeries { motion: StepSeries { length, terms, motion }, guards, spins }
     }
 }
 

@@ -65,12 +65,14 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
 
     /// The core looks for the event in the step that `lane` has expanded, or takes one of its own where that series has not converged.
     #[inline(never)]
-    fn locate(&mut self, lane: usize, expansion: &Expansion, stepped: &Stepped, results: &mut [Option<HybridMotion>]) {
+    fn locate(&mut self, lane: usize, expansion: &mut Expansion, stepped: &Stepped, results: &mut [Option<HybridMotion>]) {
         self.hand_over(lane);
-        let (kind, length) = (self.stretch.kind, stepped.time.0[lane]);
+        if stepped.converged.at(lane) {
+            expansion.take_out(lane, self.stretch.kind, stepped);
+        }
         let step = |seat: &mut Seat<'_>, method: &dyn HybridLoop<f64>| {
             if stepped.converged.at(lane) {
-                seat.locate(&expansion.of_lane(lane, kind, length), stepped.pressed.at(lane))
+                seat.locate(&expansion.one, stepped.pressed.at(lane))
             } else {
                 seat.step_by_core(method)
             }
@@ -122,7 +124,7 @@ pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: 
         for lane in 0..WIDTH {
             let Some((_, seat)) = &mut lanes.seats[lane] else { continue };
             if !stepped.plain.at(lane) {
-                lanes.locate(lane, &expansion, &stepped, results);
+                lanes.locate(lane, &mut expansion, &stepped, results);
                 continue;
             }
             seat.motion.steps.plain += 1;

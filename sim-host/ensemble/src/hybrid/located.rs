@@ -20,6 +20,10 @@ pub(super) struct LaneSeries {
     pub(super) guards: [[f64; RATES]; LANE_GUARDS],
     /// Coefficients of the speeds of flywheels whose plates slip.
     pub(super) spins: [[f64; TERMS]; 2],
+    /// It is shown that θ̇ has no zero.
+    pub(super) goes_on: bool,
+    /// It is shown that no guard has one.
+    pub(super) guarded: bool,
 }
 
 /// The dense output of a step that a lane has expanded.
@@ -106,10 +110,16 @@ impl ModeOutput<f64> for LaneOutput<'_> {
     }
 
     fn velocity_zero(&self, to: f64, sign: Sign, from_zero: bool) -> Option<f64> {
+        if self.series.goes_on {
+            return None;
+        }
         zero(self.series.motion.velocity(), to, sign, from_zero)
     }
 
     fn guard_zero(&self, index: usize, to: f64, from_zero: bool) -> Option<f64> {
+        if self.series.guarded {
+            return None;
+        }
         zero(self.series.guards.get(index)?, to, Sign::Positive, from_zero)
     }
 

@@ -47,6 +47,10 @@ pub(super) struct Stepped {
     pub(super) plain: Mask,
     /// Those whose series hold up to there.
     pub(super) converged: Mask,
+    /// Those of which it is shown that they do not turn before.
+    pub(super) goes_on: Mask,
+    /// Those of which it is shown that no guard is reached before.
+    pub(super) guarded: Mask,
     /// Those of which the force on the support may be larger than ever.
     pub(super) pressed: Mask,
     /// Lengths of the steps, s.
@@ -256,7 +260,7 @@ impl<B: LaneBody> Stretch<B> {
         }
         self.elapsed = clean.choose(self.elapsed + time, self.elapsed);
         self.due = clean.choose(self.due - time, self.due);
-        Stepped { plain: clean, converged, pressed, time }
+        Stepped { plain: clean, converged, goes_on, guarded, pressed, time }
     }
 
     /// The series of the motion and of the guard.
@@ -265,7 +269,7 @@ impl<B: LaneBody> Stretch<B> {
         // θ, θ̇, the ground twice, the clock and two flywheels.
         const GIVEN: usize = 7;
         let zero = number(0.0);
-        let Expansion { tape, motion: series, guards, spins, force } = expansion;
+        let Expansion { tape, motion: series, guards, spins, force, .. } = expansion;
         let tape = &*tape;
         let body = self.body.known(self.kind);
         let next = Cell::new(GIVEN);
