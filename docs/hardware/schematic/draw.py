@@ -2,7 +2,8 @@
 
 from html import escape
 
-WIDTH, PITCH, COLUMN = 1240, 15, 310
+PITCH, COLUMN, COLUMNS = 15, 360, 4
+MIDDLE, WIDTH = COLUMN // 2, COLUMN * COLUMNS
 COLOURS = {"V24": "#b00020", "V12": "#b05a00", "V5": "#8a6d00", "V3": "#006d5b", "GND": "#555"}
 
 
@@ -26,19 +27,19 @@ def _symbol(ref, x, y):
 def _part(ref, pins, fields, x, y):
     """Markup and height."""
     label = f"{ref}  {fields['what']}" if len(pins) < 3 else f"{ref}  {fields['number']}"
-    out = [_text(x + 145, y + 10, label, "middle", bold=True)]
+    out = [_text(x + MIDDLE, y + 10, label, "middle", bold=True)]
     if len(pins) == 2:
-        out.append(_symbol(ref, x + 115, y + 24))
-        for (_, _, net), at, anchor in zip(pins, (x + 110, x + 180), ("end", "start")):
+        out.append(_symbol(ref, x + MIDDLE - 30, y + 24))
+        for (_, _, net), at, anchor in zip(pins, (x + MIDDLE - 35, x + MIDDLE + 35), ("end", "start")):
             out.append(_text(at, y + 28, net, anchor, colour=COLOURS.get(net, "#123a8c")))
         return out, 44
     pins = [pin for pin in pins if pin[2]]
     half = (len(pins) + 1) // 2
     height = half * PITCH + 8
-    out.append(f'<rect x="{x + 95}" y="{y + 16}" width="100" height="{height}" fill="#fbf7ea" stroke="#111"/>')
+    out.append(f'<rect x="{x + MIDDLE - 50}" y="{y + 16}" width="100" height="{height}" fill="#fbf7ea" stroke="#111"/>')
     for index, (number, name, net) in enumerate(pins):
         left, row = index < half, index % half
-        at, edge = y + 16 + PITCH * (row + 0.8), x + 95 if left else x + 195
+        at, edge = y + 16 + PITCH * (row + 0.8), x + MIDDLE + (-50 if left else 50)
         out.append(f'<path d="M{edge} {at - 3}h{-10 if left else 10}" stroke="#111"/>')
         inside = f"{number} {name}" if left and number != name else f"{name} {number}" if number != name else name
         out.append(_text(edge + (4 if left else -4), at, inside, "start" if left else "end", 8))
@@ -48,7 +49,7 @@ def _part(ref, pins, fields, x, y):
 
 def sheet(title, refs, netlist, kinds):
     pins = {ref: [(n, name, net) for r, n, name, net in netlist if r == ref] for ref in refs}
-    heights, out = [36] * 4, [_text(20, 22, title, size=15, bold=True)]
+    heights, out = [36] * COLUMNS, [_text(20, 22, title, size=15, bold=True)]
     for ref in sorted(refs, key=lambda ref: -len(pins[ref])):
         column = heights.index(min(heights))
         markup, height = _part(ref, pins[ref], kinds[ref], column * COLUMN, heights[column])
