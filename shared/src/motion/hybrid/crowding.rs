@@ -10,10 +10,15 @@ use crate::motion::state::{Phase, Stopped};
 pub(super) const MOST_AT_ONCE: u32 = 16;
 
 /// Largest time between events at once, in 1/p.
-pub(super) const AT_ONCE: f64 = 1e-9;
+const AT_ONCE: f64 = 1e-9;
 
 /// Time for which a graze is followed without guards, in 1/p: their values stay below the square of that.
 pub(super) const GRAZE: f64 = 1e-6;
+
+/// Number of steps without a gap in time, after one of `length` (s) that follows `before` of them; `unit` is 1/p (s).
+pub(super) fn crowded<S: Real>(before: u32, length: S, unit: S) -> u32 {
+    if length > S::of(AT_ONCE) * unit { 0 } else { before + 1 }
+}
 
 /// Error of too many events at once, with the mode.
 pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
@@ -32,4 +37,19 @@ pub(super) fn too_many<S: Real>(state: &HybridState<S>, time: S) -> Stopped {
         "the clutches are open"
     };
     Stopped::TooManyEvents { time: time.to_f64(), mode }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::motion::hybrid::Progress;
+
+    /// What others than the core follow without an event ends a crowd of events only where time passes.
+    #[test]
+    fn steps_of_others_end_a_crowd_only_where_time_passes() {
+        let (mut progress, unit) = (Progress { at_once: 7, events: 9, ..Progress::default() }, 0.5);
+        progress.go_on(1e-11, unit);
+        assert_eq!((progress.at_once, progress.events, progress.time), (8, 10, 1e-11));
+        progress.go_on(1e-3, unit);
+        assert_eq!((progress.at_once, progress.events, progress.time), (0, 11, 1e-11 + 1e-3));
+    }
 }

@@ -41,7 +41,7 @@ use crate::motion::device_snapshot::Snapshot;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crate::structure::RestitutionScatter;
-use crowding::{AT_ONCE, GRAZE, MOST_AT_ONCE, too_many};
+use crowding::{GRAZE, MOST_AT_ONCE, crowded, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
 use seen::Seen;
 
@@ -101,9 +101,10 @@ pub struct Progress<S> {
 }
 
 impl<S: Real> Progress<S> {
-    /// At the local time `time` (s), where others than the core have taken the block.
-    pub fn at(time: S) -> Progress<S> {
-        Progress { time, ..Progress::default() }
+    /// Others than the core have taken the block on by `time` (s), without an event; `unit` is 1/p (s).
+    pub fn go_on(&mut self, time: S, unit: S) {
+        self.at_once = crowded(self.at_once, time, unit);
+        (self.time, self.events) = (self.time + time, self.events + 1);
     }
 }
 
@@ -218,7 +219,7 @@ impl<S: Real> HybridSystem<S> {
         } else {
             self.follow(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
         }
-        *at_once = if *time - before > S::of(AT_ONCE) * unit { 0 } else { *at_once + 1 };
+        *at_once = crowded(*at_once, *time - before, unit);
         self.ramps(state);
         self.command(state, *time, observer);
         if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {

@@ -2,7 +2,7 @@
 
 use sprag_loops::HybridLoop;
 use sprag_shared::drivetrain::clutch_state::{Guard, ModeCoefficients};
-use sprag_shared::motion::hybrid::Progress;
+use sprag_shared::motion::hybrid::{HybridSystem, Progress};
 use sprag_shared::motion::state::{Limits, Phase, Stopped};
 use sprag_shared::observers::peaks::Peaks;
 
@@ -61,7 +61,8 @@ impl<'a> Seat<'a> {
             return !self.is_over();
         }
         let left = self.left();
-        self.progress = Progress::at(self.progress.time + time.min(left));
+        let HybridSystem { slenderness, speed, .. } = self.block.system;
+        self.progress.go_on(time.min(left), slenderness / speed);
         time < left
     }
 
