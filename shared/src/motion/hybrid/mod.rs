@@ -306,10 +306,13 @@ impl<S: Real> HybridSystem<S> {
             direction: motion.direction,
         };
         let seen = Seen { machine: self, output: &output, law: &law, state: &*state, shaking, time: *time };
-        if held && motion.rotation == S::ZERO {
-            observer.device_at_rest(&seen, &interval);
-        } else {
-            observer.device_interval(&seen, &interval);
+        // What lasts no time is no motion: rounding decides whether it is there.
+        if *time + until > *time {
+            if held && motion.rotation == S::ZERO {
+                observer.device_at_rest(&seen, &interval);
+            } else {
+                observer.device_interval(&seen, &interval);
+            }
         }
         *time = if end == End::Reached && length == stop - *time { stop } else { *time + until };
         let motion = &mut state.motion;
