@@ -375,41 +375,6 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
     assert_eq!(results, reversed);
 }
 
-/// Plates that engage at a turn stick there at once, or slip for 1e-19 s before, as rounding has it. The largest |θ̈| is that of the uplift.
-#[test]
-fn a_mode_that_lasts_no_time_has_no_peak() {
-    let block = Block::new(0.941_411_383_484_243_7, 0.514_799_140_273_519_8, RECTANGLE_INERTIA_RATIO).unwrap();
-    let mount = Mount::TyingPoint { height: 1.238_040_854_056_216_4, pulley_ratio: 1.0 };
-    let structure = Structure {
-        geometry: Geometry::Slender,
-        device: Device {
-            kind: DeviceKind::ClutchedPair,
-            mass_ratio: 1.602_311_060_205_756_9,
-            mount,
-            kinematics: KinematicsKind::Paper,
-        },
-        ..Structure::new(block, Restitution::Constant(0.0))
-    };
-    let actuation = Actuation { release_delay: 0.1, dwell: 0.1, ..Actuation::default() };
-    let drivetrain =
-        Drivetrain { engagement: Engagement::Friction { capacity_ratio: 1.0 }, ..rigid((30.0, 0.0, 0.0), actuation) };
-    let system = drivetrain.resolve::<f64>(&structure, false).unwrap();
-    let cosine = |amplitude, frequency: f64| {
-        Component::pulse(0.37, TAU / frequency, AnySegment::Sine(Harmonics::cosine(amplitude, frequency)))
-    };
-    let level = GroundMotion::sum(&[
-        cosine(0.519_947_131_676_255_1, 0.071_812_953_939_183_54),
-        cosine(0.514_799_191_753_433_9, 89.174_459_631_393_46),
-    ]);
-    let pieces = InPieces::new(&level, None, FREE_TIME);
-    let moving = Moving { ground: pieces.ground(), level: level.clone(), vertical: None };
-    let (_, Both(peaks, _)) = alone(&structure, &system, &moving);
-    let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground: moving.ground, checks: None };
-    let in_lanes = shake_hybrid(&[block], Registers::Widest)[0].unwrap().peaks;
-    assert!((peaks.acceleration - in_lanes.acceleration).abs() < 1e-9, "{peaks:?} {in_lanes:?}");
-    assert!((peaks.rotation - in_lanes.rotation).abs() < 1e-9, "{peaks:?} {in_lanes:?}");
-}
-
 /// What lanes do not know is left to the core.
 #[test]
 fn what_is_not_plain_is_left_to_the_core() {

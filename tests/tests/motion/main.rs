@@ -10,6 +10,7 @@ mod error_estimates_of_devices;
 mod fast_motions;
 mod figures;
 mod footing;
+mod hard_devices;
 mod hard_starts;
 mod lanes_of_real_devices;
 mod lanes_under_pulses;

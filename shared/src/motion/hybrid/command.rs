@@ -219,6 +219,11 @@ impl<S: Real> HybridSystem<S> {
         if !moves {
             return;
         }
+        let wheel = &mut state.device.wheels[index];
+        if engage && wheel.coupling == Coupling::Open && wheel.spin.abs() <= self.speed * S::EPSILON {
+            // It turns by less than rounding, and the sign of that would decide which way a block at its turn goes.
+            wheel.spin = S::ZERO;
+        }
         self.with_instant(state, time, observer, |transmission, at| {
             if engage {
                 transmission.engage(at, index);
