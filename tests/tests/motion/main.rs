@@ -18,6 +18,7 @@ mod lanes_under_records;
 mod needs_cells;
 mod needs_records;
 mod paper_statements;
+mod random_devices;
 mod record_hard_cases;
 mod reference;
 mod second_program;
