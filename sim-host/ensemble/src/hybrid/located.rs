@@ -71,6 +71,7 @@ impl DenseOutput<f64> for LaneOutput<'_> {
         self.series.motion.at(time)
     }
 
+    /// As in the default, but without θ̈, which the search does not use.
     fn crossing(&self, level: f64, before: Sign, (from, to): (f64, f64)) -> f64 {
         let StepSeries { motion: MotionSeries { rotation, velocity, .. }, terms, .. } = &self.series.motion;
         newton_bracketed(from, to, before, 0.5 * (from + to), |time| {

@@ -2,9 +2,9 @@
 //! by side.
 //!
 //! Between events lanes follow the block's mode by its power series, eight at a time (`hybrid/stretch.rs`): under a record from one sample to the
-//! next, under any other motion as far as the series reaches. On a step in which something may
-//! happen the series goes to the core (`hybrid/located.rs`): its own loop finds the first event in it, answers it, and hands the block back
-//! (`hybrid/seat.rs`). So every event is located and answered by the one source there is. Flywheels coast in closed form from one to the next.
+//! next, under any other motion as far as the series reaches. On a step in which something may happen the series goes to the core
+//! (`hybrid/located.rs`): its own loop finds the first event in it, answers it, and hands the block back (`hybrid/seat.rs`). So every event is
+//! located and answered by the one source there is. Flywheels coast in closed form from one to the next.
 
 pub(crate) mod body;
 mod expansion;
@@ -109,10 +109,10 @@ impl HybridBlock<'_> {
 
     /// Coefficients of θ that reach to the next sample, or far.
     fn terms(&self) -> usize {
-        let Ground::Record(Sampled { samples, .. }) = self.ground else { return TERMS };
         /// The first term left out, over α, by the block's own rate: so far below rounding that it never shows, however strong the ground and
         /// however the motion magnifies it.
         const LEFT_OUT: f64 = 1e-22;
+        let Ground::Record(Sampled { samples, .. }) = self.ground else { return TERMS };
         let step = samples.step * self.system.speed / self.system.slenderness;
         let mut term = 1.0;
         for order in 1..RECORD_TERMS {
@@ -145,7 +145,7 @@ pub(crate) struct Kind {
     pub(crate) consistent: bool,
     /// The ground moves vertically too.
     pub(crate) vertical: bool,
-    /// The ground moves along no straight lines, and steps are as long as their series reach.
+    /// The ground moves in pieces of any shape, and steps are as long as their series reach.
     pub(crate) curved: bool,
     /// Clutches with plates.
     pub(crate) plates: bool,

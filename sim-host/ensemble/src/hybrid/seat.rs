@@ -161,6 +161,7 @@ impl<'a> Seat<'a> {
                     break;
                 }
             } else {
+                // The lines of a record meet at its samples.
                 if matches!(self.block.ground, Ground::Pieces(_)) {
                     self.begin();
                 }

@@ -106,8 +106,10 @@ pub fn results_by<E: Display>(
         results[*index] = match found {
             Some(found) => PulseResult::of_shaken(&found.motion, &subject.scene.block),
             None => {
-                let ground =
-                    ground.as_ref().map_or_else(|| subject.scene.ground_motions().map(Cow::Owned), |g| Ok(Cow::Borrowed(g)))?;
+                let ground = match ground {
+                    Some(ground) => Cow::Borrowed(ground),
+                    None => Cow::Owned(subject.scene.ground_motions()?),
+                };
                 simulated(&subject.scene, &ground, || grid.place(places[*index]), interrupt)?
             }
         };
