@@ -113,22 +113,23 @@ impl<const TERMS: usize> Series<TERMS> {
     /// How far the last two terms of θ stay below `tolerance` (rad; Jorba and Zou's two-term rule).
     #[inline(always)]
     pub fn reach(&self, tolerance: Number) -> Number {
-        self.along(TERMS - 1, tolerance).smaller(self.along(TERMS - 2, tolerance)) * number(0.95)
+        let along = |order: usize| along(self.motion.rotation[order], order, tolerance);
+        along(TERMS - 1).smaller(along(TERMS - 2)) * number(0.95)
     }
+}
 
-    /// How far the term of this order stays below `tolerance`.
-    #[inline(always)]
-    fn along(&self, order: usize, tolerance: Number) -> Number {
-        // Above zero, so that the ratio is finite.
-        let last = self.motion.rotation[order].abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
-        rough_power(tolerance / last, RECIPROCALS[order & 63])
-    }
+/// How far the term of this `coefficient` and `order` stays below `tolerance`; to about 7 %.
+#[inline(always)]
+pub(crate) fn along(coefficient: Number, order: usize, tolerance: Number) -> Number {
+    // Above zero, so that the ratio is finite.
+    let last = coefficient.abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
+    rough_power(tolerance / last, RECIPROCALS[order & 63])
 }
 
 /// x to the `exponent` (0 to 1) to about 7 %, for choosing step sizes only: as [`sprag_shared::math::scalar::Real::rough_power`], from the
 /// high halves of the bits, for which registers have conversions to doubles. None has Rust's back, which saturates.
 #[inline(always)]
-pub(crate) fn rough_power(x: Number, exponent: f64) -> Number {
+fn rough_power(x: Number, exponent: f64) -> Number {
     const ONE: i32 = 0x3ff0_0000;
     // Added to this, 1.5 × 2⁵², a number loses its fraction, and its low half is the whole number.
     const WHOLE: f64 = 6_755_399_441_055_744.0;

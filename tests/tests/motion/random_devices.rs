@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use sprag_ensemble::hybrid::HybridBlock;
 use sprag_ensemble::machine::{Registers, shake_hybrid};
 use sprag_ensemble::shaken::Shaken;
-use sprag_loops::{Method, hybrid};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, DampedOscillation, Harmonics, Linear, Ricker};
 use sprag_shared::math;
@@ -22,6 +21,8 @@ use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::side_by_side::InPieces;
 use sprag_sim::simulation::drive::{Course, Overturning};
 use sprag_tests::{Dice, GEOMETRIES};
+
+use super::hard_devices::follow;
 
 const CASES: u64 = 2_000;
 
@@ -127,9 +128,8 @@ fn ground(dice: &mut Dice, structure: &Structure) -> [GroundMotion; 2] {
 
 /// Outcome and peaks by the core, θ/α and θ̈/(p²α).
 fn by_core(course: &Course<'_>, system: &HybridSystem<f64>, tolerance: f64) -> (Outcome, [f64; 2]) {
-    let (mut state, mut peaks) = (system.at_rest(), Peaks::default());
-    course.follow_machine(system, &*hybrid(Method::Adaptive(tolerance)), &mut state, &mut peaks, || true).unwrap();
-    (Outcome::of(&state.motion, &peaks), relative(system, &peaks))
+    let (state, peaks) = follow(course, system, tolerance);
+    (Outcome::of(&state, &peaks), relative(system, &peaks))
 }
 
 fn relative(system: &HybridSystem<f64>, peaks: &Peaks<f64>) -> [f64; 2] {

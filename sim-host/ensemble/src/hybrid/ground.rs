@@ -60,7 +60,7 @@ impl fmt::Debug for Piece<'_> {
     }
 }
 
-impl<'a> Sampled<'a> {
+impl Sampled<'_> {
     /// Ground acceleration (in g) at `sample`, horizontal and vertical.
     #[inline(always)]
     pub(super) fn at(&self, sample: usize) -> [f64; 2] {
@@ -92,7 +92,7 @@ impl Pieces<'_> {
     }
 }
 
-impl<'a> Ground<'a> {
+impl Ground<'_> {
     /// Whether lanes may follow a block over it.
     pub(super) fn is_plain(&self) -> bool {
         let plain = match self {
@@ -125,6 +125,14 @@ impl<'a> Ground<'a> {
         match self {
             Ground::Record(Sampled { samples, .. }) => samples.values.len() - 1,
             Ground::Pieces(Pieces { pieces, .. }) => pieces.len(),
+        }
+    }
+
+    /// How long it moves, s.
+    pub(super) fn duration(&self) -> f64 {
+        match self {
+            Ground::Record(Sampled { samples, .. }) => samples.duration(),
+            Ground::Pieces(Pieces { pieces, .. }) => pieces.last().map_or(0.0, |last| last.start + last.duration),
         }
     }
 

@@ -128,7 +128,7 @@ pub(crate) fn run<B: LaneBody>(kind: Kind, blocks: &[HybridBlock<'_>], results: 
                 continue;
             }
             seat.motion.steps.plain += 1;
-            if seat.motion.steps.plain > MOST_EVENTS {
+            if kind.curved && seat.motion.steps.plain > MOST_EVENTS {
                 // The core says of it that it does not end.
                 lanes.seats[lane] = None;
                 lanes.refill(lane, results);

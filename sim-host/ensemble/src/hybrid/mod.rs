@@ -164,8 +164,7 @@ impl HybridMotion {
         if self.state.motion.phase != Phase::Overturned {
             let limits = Limits { overturned: block.overturned(0.0), events: MOST_EVENTS };
             let quiet = Shaking::level(&Harmonics::QUIET);
-            let last = block.ground.intervals() - 1;
-            let (state, mut watch) = self.watched(block.ground.start(last) + block.ground.length(last));
+            let (state, mut watch) = self.watched(block.ground.duration());
             hybrid(Method::Adaptive(TIGHT)).advance(block.system, state, quiet, free_time, &limits, &mut watch)?;
         }
         Ok(self)

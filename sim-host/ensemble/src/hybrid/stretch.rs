@@ -17,7 +17,7 @@ use super::expansion::{Expansion, RATES, TERMS, bend_of};
 use super::seat::Seat;
 use super::{HybridMotion, Kind};
 use crate::polynomial::{largest_in_lane, value};
-use crate::series::rough_power;
+use crate::series::along;
 use crate::{Mask, Number, WIDTH, number};
 
 /// Largest of the last terms of θ and of the one before, over α. The first one that θ̇ leaves out, over pα, is as large as the last one of θ:
@@ -331,18 +331,13 @@ impl<B: LaneBody> Stretch<B> {
     #[inline(always)]
     fn reach(&self, expansion: &Expansion) -> Number {
         let last = self.kind.terms - 1;
-        let size = self.slenderness.larger(self.rotation.abs());
-        let along = |order: usize, coefficient: Number| {
-            // Above zero, so that the ratio is finite.
-            let coefficient = coefficient.abs() + number(f64::MIN_POSITIVE / f64::EPSILON);
-            rough_power(number(LAST) * size / coefficient, RECIPROCALS[order & 63])
-        };
+        let tolerance = number(LAST) * self.slenderness.larger(self.rotation.abs());
         let rotation = &expansion.motion.rotation;
-        let mut reach = along(last, rotation[last]).smaller(along(last - 1, rotation[last - 1]));
+        let mut reach = along(rotation[last], last, tolerance).smaller(along(rotation[last - 1], last - 1, tolerance));
         if self.kind.plates {
             for spin in &expansion.spins {
                 // A speed that matters is pα.
-                reach = reach.smaller(along(last - 1, spin[last - 1] * self.unit));
+                reach = reach.smaller(along(spin[last - 1] * self.unit, last - 1, tolerance));
             }
         }
         reach * number(0.9)
