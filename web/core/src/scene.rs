@@ -64,9 +64,7 @@ impl PageScene {
     /// [`PageError`] for a scene that cannot be read, a record that is none, and one that is not among `files`.
     pub fn new(text: &str, files: &[File]) -> Result<PageScene, PageError> {
         let mut scene = Scene::parse(text, ORIGIN)?;
-        let supports: Vec<_> = scene.file.support_records().collect();
-        let motions = scene.file.ground.iter().chain(&scene.file.vertical).chain(&supports);
-        scene.given = motions.filter_map(|motion| given(motion, files)).collect::<Result<_, _>>()?;
+        scene.take_records(|motion| record(motion, files))?;
         Ok(PageScene { scene, table: document::table(text, ORIGIN)?, grid: OnceCell::new() })
     }
 
@@ -109,12 +107,11 @@ impl PageScene {
     }
 }
 
-/// The record that a motion names, if it names any.
-fn given(motion: &GroundTable, files: &[File]) -> Option<Result<Record, PageError>> {
-    let name = motion.file.as_ref()?;
-    let file = files.iter().find(|file| Path::new(&file.name) == name);
-    Some(match file {
-        Some(file) => Record::parse(&file.name, &file.bytes, &motion.read_options()).map_err(PageError::from),
+/// The record that a motion names.
+fn record(motion: &GroundTable, files: &[File]) -> Result<Record, PageError> {
+    let name = motion.file.as_deref().unwrap_or(Path::new(""));
+    match files.iter().find(|file| Path::new(&file.name) == name) {
+        Some(file) => Ok(Record::parse(&file.name, &file.bytes, &motion.read_options())?),
         None => Err(PageError::NoRecord(name.display().to_string())),
-    })
+    }
 }

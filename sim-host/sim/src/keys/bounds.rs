@@ -1,5 +1,6 @@
 //! The range of a number, and the length of a list.
 
+use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
 use serde_json::Value as Schema;
@@ -93,7 +94,11 @@ pub fn outside(table: &toml::Table, schema: &Schema) -> Option<Outside> {
 /// [`outside`], with the path from its end.
 fn in_table(table: &toml::Table, schema: &Schema) -> Option<Outside> {
     let properties = choices(schema).find_map(|choice| choice.get("properties")?.as_object())?;
-    properties.iter().find_map(|(name, schema)| in_value(table.get(name)?, schema, name).map(|outside| outside.under(name)))
+    // A table has few of the keys that it may have.
+    let given = table.iter().filter_map(|(name, value)| Some((name, value, properties.get(name)?)));
+    let mut outside: BTreeMap<&String, Outside> =
+        given.filter_map(|(name, value, schema)| Some((name, in_value(value, schema, name)?))).collect();
+    properties.keys().find_map(|name| outside.remove(name).map(|outside| outside.under(name)))
 }
 
 /// The same of the value of `key`.

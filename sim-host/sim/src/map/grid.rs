@@ -7,6 +7,7 @@ use toml::Table;
 
 use super::pulse::Pulse;
 use crate::batch::case::PulseShape;
+use crate::record::Record;
 use crate::scene::controller::LawName;
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
@@ -87,13 +88,18 @@ impl Grid {
     ///
     /// # Errors
     /// [`SceneError`] when the scene has no axes, or a value at a corner of the map is outside its range.
-    pub fn new(mut scene: Scene, text: Table) -> Result<Grid, SceneError> {
+    pub fn new(mut scene: Scene, mut text: Table) -> Result<Grid, SceneError> {
         let key = |key: &str| crate::scene::error::KeyPath { origin: scene.origin.clone(), key: key.to_owned() };
         let Some(map) = scene.file.map.clone() else {
             return Err(key("map.x").missing("a [map] table with an axis x, or --x KEY=FROM:TO:CELLS"));
         };
         scene.overturned_at = map.overturned_at;
         let mapped = mapped(&scene, &map)?;
+        // A cell has no axes.
+        text.remove("map");
+        let folder = scene.folder.clone();
+        // What cannot be read is reported by the first cell.
+        _ = scene.take_records(|motion| Record::read(motion.path(&folder).unwrap_or_default(), &motion.read_options()));
         let mut grid = Grid { mapped, direct: Vec::new(), record: None, scene, map, text };
         // Keys that the scene does not know are refused here, as in a file. Ranges are intervals: what holds at the corners holds
         // between them.
@@ -106,7 +112,6 @@ impl Grid {
         let mut keys = std::iter::once(&grid.map.x).chain(&grid.map.y).map(|axis| axis.key.as_str());
         let fixed = |key: &str| !key.starts_with("ground.") && !key.starts_with("vertical.");
         if keys.all(|key| fixed(key) || ["ground.0.scale", "vertical.0.scale"].contains(&key)) {
-            // What cannot be read is reported by the first cell.
             grid.record = OnlyRecords::of(&grid.scene).ok().flatten();
         }
         Ok(grid)

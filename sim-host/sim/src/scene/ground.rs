@@ -113,6 +113,24 @@ pub enum Direction {
     Vertical,
 }
 
+/// A record in memory.
+#[derive(Clone, Debug)]
+pub struct GivenRecord {
+    /// The file, as a motion names it.
+    pub file: PathBuf,
+    /// What the motion says of its record beside the file.
+    pub options: ReadOptions,
+    /// What was read.
+    pub record: Record,
+}
+
+impl GivenRecord {
+    /// Whether `motion` means this one.
+    pub fn is_of(&self, motion: &GroundTable) -> bool {
+        motion.file.as_ref() == Some(&self.file) && motion.read_options() == self.options
+    }
+}
+
 /// Why a scene's ground motion cannot be had.
 #[derive(Debug, thiserror::Error)]
 pub enum GroundError {
@@ -287,7 +305,7 @@ impl GroundTable {
         }
     }
 
-    /// The record of a motion of kind "record", before it is scaled.
+    /// The record of a motion of kind "record", before it is scaled: of those in memory, or else of its file.
     ///
     /// # Errors
     /// [`GroundError`] when no file is named, or it cannot be read.
@@ -296,10 +314,9 @@ impl GroundTable {
             Direction::Horizontal => "a record file here, or --record FILE",
             Direction::Vertical => "a record file here, or --record-vertical FILE",
         };
-        let given = |file: &PathBuf| scene.given.iter().find(|record| Path::new(&record.name) == file);
         let file = self.path(&scene.folder).ok_or_else(|| key("file").missing(needed))?;
-        let record = match self.file.as_ref().and_then(given) {
-            Some(record) => record.clone(),
+        let record = match scene.given.iter().find(|given| given.is_of(self)) {
+            Some(given) => given.record.clone(),
             None => Record::read(file, &self.read_options())
                 .map_err(|error| GroundError::Record { key: error.key().map(key), error })?,
         };

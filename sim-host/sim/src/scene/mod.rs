@@ -30,11 +30,9 @@ use sprag_shared::structure::{Base, Restitution, RestitutionScatter, Structure};
 
 pub use device::SceneDevice;
 pub use error::SceneError;
-use ground::Direction;
+use ground::{Direction, GivenRecord};
 use map::OverturnedAt;
 use schema::{DeviceTable, SceneFile};
-
-use crate::record::Record;
 
 /// Largest scene file that is read, bytes.
 pub const LARGEST_FILE: u64 = 1 << 20;
@@ -57,8 +55,8 @@ pub struct Scene {
     pub origin: String,
     /// Folder that record files are relative to.
     pub folder: PathBuf,
-    /// Records in memory: `file` names one of these before a file of the folder.
-    pub given: Arc<[Record]>,
+    /// Records in memory, which go before the files of the folder.
+    pub given: Arc<[GivenRecord]>,
     /// |θ| at which a block counts as overturned; a map's cells have `map.overturned_at`, everything else the default.
     pub overturned_at: OverturnedAt,
 }

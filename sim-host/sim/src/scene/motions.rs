@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::Scene;
 use super::error::{KeyPath, SceneError};
-use super::ground::{Direction, GroundError, GroundTable, Motion};
+use super::ground::{Direction, GivenRecord, GroundError, GroundTable, Motion};
 use super::schema::SceneFile;
 use super::support::SupportRecordTable;
 use crate::ground_motion::oscillator::Beside;
@@ -85,6 +85,23 @@ impl Scene {
     ) -> Result<Vec<(SupportRecordTable, Beside)>, GroundError> {
         let of = |(table, support): (SupportRecordTable, Component)| (table, Beside::recorded(horizontal, vertical, &support));
         Ok(self.support_records(records)?.into_iter().map(of).collect())
+    }
+
+    /// Takes the records of its motions into memory that are not there yet, as `read` reads their files: what is made of the scene reads
+    /// none of them again.
+    ///
+    /// # Errors
+    /// The first of `read`.
+    pub fn take_records<E>(&mut self, read: impl Fn(&GroundTable) -> Result<Record, E>) -> Result<(), E> {
+        let supports: Vec<GroundTable> = self.file.support_records().collect();
+        let motions = self.file.ground.iter().chain(&self.file.vertical).chain(&supports);
+        let mut given = self.given.to_vec();
+        for motion in motions {
+            let Some(file) = motion.file.clone().filter(|_| !given.iter().any(|given| given.is_of(motion))) else { continue };
+            given.push(GivenRecord { file, options: motion.read_options(), record: read(motion)? });
+        }
+        self.given = given.into();
+        Ok(())
     }
 
     /// What its record files hold.

@@ -45,13 +45,18 @@ fn record(folder: &tempfile::TempDir, scale: f64) -> std::path::PathBuf {
 fn a_record_in_memory_goes_before_the_file_that_is_called_so() {
     let folder = tempfile::tempdir().unwrap();
     let file = record(&folder, 0.25);
-    let named = |name: &str| Record { name: name.to_owned(), ..Record::read(&file, &ReadOptions::default()).unwrap() };
     let mut scene = scene(&["vertical.1.file=nowhere.csv"]).unwrap();
     assert!(motions(&scene).is_err());
-    scene.given = [named("other.csv"), named("nowhere.csv")].into();
+    scene.take_records(|_| Record::read(&file, &ReadOptions::default())).unwrap();
     let GroundMotions { vertical, records, .. } = motions(&scene).unwrap();
     // Between 0, 0.2, 0.4, 0.6, 0.8, 1.0 and 1.3 s.
     assert_eq!((vertical.unwrap().segments().len(), records[0].samples), (6, 4));
+    // What is there already is not read again.
+    scene.take_records(|_| Err("read")).unwrap();
+    // One that is read otherwise is another one.
+    scene.file.vertical[1].component = Some("UD".to_owned());
+    assert!(motions(&scene).is_err());
+    assert_eq!(scene.take_records(|_| Err("read")), Err("read"));
 }
 
 #[test]
