@@ -58,7 +58,8 @@ pub struct Watch<'a, M: Model> {
 struct Legs<I> {
     coupling: f64,
     outward: LegTime<I>,
-    inward: LegTime<I>,
+    /// Of a clutched pair.
+    inward: Option<LegTime<I>>,
 }
 
 /// The series of free swings of blocks with one slenderness and coupling; of clutched pairs, with one restitution, their sums.
@@ -152,14 +153,14 @@ impl<'a, M: Model> Watch<'a, M> {
         let motion = block.free_motion::<M, PAIR>();
         let (slenderness, coupling) = (block.plain.slenderness, block.plain.coupling);
         if self.legs.as_ref().is_none_or(|legs| legs.coupling != coupling) {
-            let (outward, inward) = (LegTime::of(motion.outward), LegTime::of(motion.inward));
+            let (outward, inward) = (LegTime::of(motion.outward), PAIR.then(|| LegTime::of(motion.inward)));
             self.legs = Some(Legs { coupling, outward, inward });
         }
         let legs = self.legs.as_ref()?;
         let course = FreeCourse {
             motion,
             outward: &legs.outward,
-            inward: &legs.inward,
+            inward: legs.inward.as_ref().unwrap_or(&legs.outward),
             no_return: M::GEOMETRY.point_of_no_return(slenderness, 0.0),
             counted_speed: COUNTED_SPEED * slenderness,
             rest_speed: REST_SPEED * slenderness,

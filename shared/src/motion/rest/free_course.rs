@@ -26,7 +26,7 @@ pub struct FreeCourse<'a, I> {
     pub motion: FreeMotion<I>,
     /// How long it takes outward, and back from beyond the tip.
     pub outward: &'a LegTime<I>,
-    /// How long it takes inward on this side of the tip.
+    /// How long it takes inward on this side of the tip; the same one where both are one mode.
     pub inward: &'a LegTime<I>,
     /// |θ| (rad) beyond which an outward motion has overturned: α (slender) or π/2.
     pub no_return: f64,
@@ -66,7 +66,10 @@ impl<I: FirstIntegral> FreeCourse<'_, I> {
         let (mut q, mut velocity, mut time) = (alpha - rotation, velocity, 0.0);
         // Whether nothing that is still to come has a larger peak.
         let mut peaked = false;
+        let one_mode = core::ptr::eq(self.outward, self.inward);
         for _ in 0..MOST_SWINGS {
+            // A motion of one mode from an impact to its turn, which comes back as it went.
+            let mut rise = None;
             let mut turned = velocity == 0.0;
             let mut squared = velocity * velocity;
             if velocity > 0.0 || q <= 0.0 {
@@ -85,6 +88,7 @@ impl<I: FirstIntegral> FreeCourse<'_, I> {
                     return (ended < horizon - margin).then_some(course);
                 } else {
                     time += leg;
+                    rise = Some(leg).filter(|_| one_mode && q == alpha);
                     (q, squared, turned) = (outward.turn(q, squared)?, 0.0, true);
                 }
             }
@@ -92,7 +96,10 @@ impl<I: FirstIntegral> FreeCourse<'_, I> {
             if incoming <= 0.0 {
                 return None;
             }
-            let leg = self.inward.from_middle(alpha, incoming)?;
+            let leg = match rise {
+                Some(rise) => rise,
+                None => self.inward.from_middle(alpha, incoming)?,
+            };
             time += if squared > 0.0 { leg - self.inward.from_middle(q, squared)? } else { leg };
             if time >= horizon - margin {
                 return (peaked && time > horizon + margin).then_some(course);
@@ -150,7 +157,7 @@ impl<I: FirstIntegral> FreeCourse<'_, I> {
 mod tests {
     use super::*;
     use crate::equation::SlenderBlock;
-    use crate::equation::first_integral::SlenderIntegral;
+    use crate::equation::first_integral::{FullIntegral, SlenderIntegral};
     use crate::math::{acosh, atanh, square_root};
     use crate::motion::rest::free_decay::HalfCycles;
     use crate::motion::rest::free_decay::decay_sums::DecaySums;
@@ -215,6 +222,22 @@ mod tests {
         // At the fourth rounding decides, and before the first the peaks are still to come.
         assert_eq!(pair(ALPHA - q, 0.0, restitution, horizon + 0.5 * swings[2]), None);
         assert_eq!(pair(ALPHA - q, 0.0, restitution, 0.9 * first), None);
+    }
+
+    /// Without a clutch the way back from a turn takes as long as that there, and is timed with it.
+    #[test]
+    fn a_motion_of_one_mode_comes_back_as_it_went() {
+        let integral = FullIntegral { coupling: COUPLING };
+        let legs = (LegTime::of(integral), LegTime::of(integral));
+        let motion = FreeMotion { slenderness: ALPHA, restitution: 0.9, outward: integral, inward: integral };
+        let follow = |inward| {
+            let (counted_speed, rest_speed) = (1e-6 * ALPHA, 1e-6 * ALPHA);
+            let course = FreeCourse { motion, outward: &legs.0, inward, no_return: ALPHA, counted_speed, rest_speed };
+            course.follow(0.6 * ALPHA, -0.2 * ALPHA, 200.0, |_, _| None).unwrap()
+        };
+        let (once, twice) = (follow(&legs.0), follow(&legs.1));
+        assert!(once.impacts > 100 && (once.impacts, once.first_impact) == (twice.impacts, twice.first_impact));
+        assert!((once.ended.unwrap() / twice.ended.unwrap() - 1.0).abs() < 1e-9, "{once:?} {twice:?}");
     }
 
     /// It passes the tip with ω₀ where it starts from θ = 0 with ω² = ω₀² + α², after a time asinh(α/ω₀); beyond the tip it comes back or does not.

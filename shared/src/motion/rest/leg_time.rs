@@ -74,8 +74,10 @@ impl<I: FirstIntegral> LegTime<I> {
         // E^{j−½} ω
         let mut product = root * speed;
         for (j, pace) in self.pace.iter().enumerate().skip(1) {
-            let odd = (2 * j - 1) as f64;
-            moment = (product - odd * tip * moment) * (0.5 * math::RECIPROCALS[j & 63]);
+            // One product and one difference from moment to moment: they wait for each other.
+            let half = 0.5 * math::RECIPROCALS[j & 63];
+            let share = tip * ((2 * j - 1) as f64 * half);
+            moment = product * half - share * moment;
             let term = pace * moment;
             time += term;
             if term.abs() <= time * 1e-17 {

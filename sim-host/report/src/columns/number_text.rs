@@ -1,6 +1,6 @@
 //! Numbers as text: the fewest digits that read back to the same f64.
 
-use std::fmt::{Arguments, Write as _};
+use std::fmt::Write as _;
 
 /// Lowest bits of a mantissa. Below 1e7 a number that lies halfway between two texts, of which not everybody takes the same, has 18 of zero.
 const LAST_BITS: u64 = (1 << 16) - 1;
@@ -9,6 +9,7 @@ const LAST_BITS: u64 = (1 << 16) - 1;
 #[derive(Default)]
 pub struct NumberText {
     quick: zmij::Buffer,
+    whole: itoa::Buffer,
     other: String,
 }
 
@@ -19,19 +20,15 @@ impl NumberText {
         if (1e-4..1e7).contains(&number.abs()) && number.to_bits() & LAST_BITS != 0 {
             return self.quick.format_finite(number);
         }
-        self.written(format_args!("{number:?}"))
+        self.other.clear();
+        // Writing into a string does not fail.
+        let _ = write!(self.other, "{number:?}");
+        &self.other
     }
 
     /// The text of `count`.
     pub fn of_count(&mut self, count: u64) -> &str {
-        self.written(format_args!("{count}"))
-    }
-
-    fn written(&mut self, text: Arguments<'_>) -> &str {
-        self.other.clear();
-        // Writing into a string does not fail.
-        let _ = self.other.write_fmt(text);
-        &self.other
+        self.whole.format(count)
     }
 }
 

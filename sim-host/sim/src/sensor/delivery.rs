@@ -37,7 +37,9 @@ impl<T: Copy> Delivery<T> {
             return;
         }
         // Between two calls more can be taken than the ring holds.
-        self.deliver(instant);
+        if self.count == MOST_UNDER_WAY {
+            self.deliver(instant);
+        }
         // A full ring gives up the newest: the others then still arrive in time.
         self.count = (self.count + 1).min(MOST_UNDER_WAY);
         let place = (self.oldest + self.count - 1) % MOST_UNDER_WAY;

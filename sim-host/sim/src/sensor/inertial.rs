@@ -62,7 +62,14 @@ fn whole(value: f64) -> f64 {
     // From 2⁵² on every number is whole, so a sum there is rounded to one; by even neighbours where two are as near.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
     let nearest = ((value.abs() + WHOLE) - WHOLE).copysign(value);
-    if (value - nearest).abs() < 0.5 { nearest } else { value.round() }
+    if (value - nearest).abs() < 0.5 { nearest } else { rounded(value) }
+}
+
+// Out of the way: a compiler that knows what `round` does calls it before it knows whether that is needed.
+#[cold]
+#[inline(never)]
+fn rounded(value: f64) -> f64 {
+    value.round()
 }
 
 /// What one axis adds.
