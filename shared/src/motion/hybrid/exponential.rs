@@ -14,6 +14,7 @@ use crate::drivetrain::clutch_state::ModeCoefficients;
 use crate::drivetrain::transmission::Transmission;
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
+use crate::math::RECIPROCALS;
 use crate::math::scalar::Real;
 
 /// ÿ + 2a ẏ + Ω² y = B, from y and ẏ over `h`.
@@ -28,8 +29,31 @@ pub struct Oscillator<S> {
 }
 
 impl<S: Real> Oscillator<S> {
+    /// What y and ẏ are `h` (s) later beyond y + ẏh and ẏ. However short the step, their digits are their own: those of y would not resolve the
+    /// swings of a block that comes to rest.
+    pub fn bend(&self, h: S, (y, rate): (S, S)) -> (S, S) {
+        let Oscillator { damping: a, stiffness, push } = *self;
+        let (fade, turn) = (S::of(2.0) * a * h, stiffness * h * h);
+        if fade > S::ONE || turn > S::ONE {
+            let (later, later_rate) = self.after(h, (y, rate));
+            return (later - y - rate * h, later_rate - rate);
+        }
+        // ẏ after a push of 1 that sets in now, over h, as a power series in h; and its first two integrals.
+        let (mut before, mut term) = (S::ZERO, S::ONE);
+        let (mut first, mut second, mut third) = (S::ZERO, S::ZERO, S::ZERO);
+        for m in 0..2 * S::STUMPFF_TERMS + 2 {
+            let [one, two, three] = [1, 2, 3].map(|k| S::of(RECIPROCALS[(m + k) & 63]));
+            first = first + term;
+            second = second + term * two;
+            third = third + term * two * three;
+            (before, term) = (term, -(fade * term + turn * before * one) * two);
+        }
+        let (pushed, growth) = (push - S::of(2.0) * a * rate - stiffness * y, stiffness * rate * h);
+        (h * h * (pushed * second - growth * third), h * (pushed * first - growth * second))
+    }
+
     /// y and ẏ after `h` (s), in closed form.
-    pub fn after(&self, h: S, (y, rate): (S, S)) -> (S, S) {
+    fn after(&self, h: S, (y, rate): (S, S)) -> (S, S) {
         let Oscillator { damping: a, stiffness, push } = *self;
         let middle = push / stiffness;
         let u = y - middle;
@@ -103,10 +127,8 @@ fn solve<S: Real, B: Body<S>, D: Transmission<S, X, G>, const X: usize, const G:
     // Impulse of each spring and its integral. Two springs of one kind part into their mean and their difference.
     let mode = |q: S, push: S, y: S, rate: S| {
         let oscillator = Oscillator { damping: S::HALF * q * parameters.damping, stiffness: q * parameters.stiffness, push };
-        let (y_end, rate_end) = oscillator.after(h, (y, rate));
-        let impulse = (push * h - (rate_end - rate)) / q;
-        let integral = (push * half_square - (y_end - y - rate * h)) / q;
-        (y_end, impulse, integral)
+        let (bend, turned) = oscillator.bend(h, (y, rate));
+        ((y + rate * h) + bend, (push * h - turned) / q, (push * half_square - bend) / q)
     };
     let none = (S::ZERO, S::ZERO, S::ZERO);
     let springs = if both {
@@ -171,6 +193,26 @@ mod tests {
             let curvature = (ahead.1 - behind.1) / (2.0 * h);
             let expected = 0.7 - 2.0 * damping * start.1 - stiffness * start.0;
             assert!((curvature - expected).abs() < 1e-4 * (1.0 + expected.abs()), "a = {damping}: {curvature} and {expected}");
+        }
+    }
+
+    /// In short steps it is the same motion, to digits of its own.
+    #[test]
+    fn a_short_step_bends_by_half_its_square() {
+        for (damping, stiffness) in [(0.0, 1e4), (3.0, 1e4), (100.0, 1e4), (180.0, 1e4), (5e3, 1e4), (1e-3, 1e-6)] {
+            let oscillator = Oscillator { damping, stiffness, push: 0.7 };
+            let (y, rate) = (0.2_f64, -1.1);
+            let pushed = 0.7 - 2.0 * damping * rate - stiffness * y;
+            for h in [1e-9, 1e-12, 1e-15] {
+                let (bend, turned) = oscillator.bend(h, (y, rate));
+                let size = 1.0 + 2.0 * damping + stiffness.sqrt();
+                assert!((bend / (0.5 * h * h * pushed) - 1.0).abs() < 1e-14 + size * h, "a = {damping}, Ω² = {stiffness}, {h}");
+                assert!((turned / (h * pushed) - 1.0).abs() < 1e-14 + size * h, "a = {damping}, Ω² = {stiffness}, {h}");
+            }
+            // Where the formula changes.
+            let h = (1.0 / stiffness.sqrt()).min(0.5 / damping);
+            let (below, above) = (oscillator.bend(h * (1.0 - 1e-14), (y, rate)), oscillator.bend(h * (1.0 + 1e-14), (y, rate)));
+            assert!((below.0 / above.0 - 1.0).abs() < 3e-13 && (below.1 / above.1 - 1.0).abs() < 3e-13, "{below:?} {above:?}");
         }
     }
 

@@ -3,6 +3,7 @@
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
+use crate::drivetrain::any_transmission::TransmissionKind;
 use crate::drivetrain::clutch_state::{Guard, ModeCoefficients};
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
@@ -99,7 +100,15 @@ impl<S: Real> HybridSystem<S> {
         } else {
             self.look_at_drive(state);
         }
+        let before = state.device.wheels.map(|wheel| wheel.coupling);
         self.settle(state, time, observer);
+        // The overrunning clutch of the one way has let go, and that of the other way may hold the block in turn.
+        let passed_on = self.transmission.kind == TransmissionKind::Overrunning
+            && state.motion.velocity == S::ZERO
+            && state.device.wheels.map(|wheel| wheel.coupling) != before;
+        if passed_on {
+            self.turned(state);
+        }
     }
 
     /// At θ̇ = 0, where what holds or moves the block has changed: a held block that nothing holds any more goes. Whether it does.

@@ -2,9 +2,11 @@
 
 use super::mode_output::{Place, Shaking};
 use super::{HybridState, HybridSystem};
+use crate::drivetrain::any_transmission::TransmissionKind;
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState};
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
+use crate::equation::clutch_rule::wheel_for;
 use crate::math::polynomial::first_zero_of;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -120,13 +122,16 @@ impl<S: Real> HybridSystem<S> {
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
         let (mut push, mut support) = (parameters.rack_push, S::ZERO);
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
+        // An overrunning clutch holds one way, and lets go the other way.
+        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
+        let holds = |index: usize| !one_way || index == wheel_for(sign);
         let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
             Coupling::Locked => true,
             Coupling::Slipping(_) => wheel.spin == S::ZERO,
             Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
         };
         let wheels = &state.device.wheels;
-        for wheel in wheels.iter().filter(|wheel| sticks(wheel)) {
+        for (_, wheel) in wheels.iter().enumerate().filter(|(index, wheel)| sticks(wheel) && holds(*index)) {
             let (friction, growth) = parameters.standing_friction(wheel);
             dry = add(dry, (friction * (S::ONE + parameters.load_friction), growth));
             push = push - parameters.support_push;

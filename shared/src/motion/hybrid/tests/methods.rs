@@ -4,7 +4,7 @@ use super::{drivetrains, pair, tight};
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::hybrid::series::Series;
 use crate::structure::block::Geometry;
-use crate::structure::drivetrain::{Drivetrain, Engagement};
+use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 
 /// Series against Runge-Kutta: nothing but the equations and the events is common to them.
 #[test]
@@ -110,4 +110,20 @@ fn the_explicit_step_is_bounded_by_the_stiffness() {
     let exponential = shake.exponential(&stiff(stiffness, 0.01), 4.0 / frequency).peak;
     assert!(error(exponential) < 0.01, "{exponential} and {exact}");
     assert!(explicit.is_err() || error(explicit.unwrap()) > 0.05, "Runge-Kutta should have failed here");
+}
+
+/// The last swings before a rest that is asked for closely are far below the digits of the twist at which a spring carries the block.
+#[test]
+fn an_elastic_clutch_comes_to_rest_by_any_method() {
+    let mut shake = pair(Geometry::Slender, 2.0, 8.0);
+    shake.structure.rest_speed = 1e-9;
+    let flywheel = FlywheelLosses { dry_deceleration: 0.015, brake_deceleration: 0.5, ..FlywheelLosses::default() };
+    let drivetrain = Drivetrain { flywheel, ..stiff(500.0, 0.0) };
+    let series = shake.machine(&drivetrain, &tight());
+    for step in [1e-3, 4e-3, 1.28e-2] {
+        let exponential = shake.exponential(&drivetrain, step);
+        let [here, there] = [exponential.ended, series.ended].map(Option::unwrap);
+        assert_eq!(exponential.impacts, series.impacts, "{step}");
+        assert!((here / there - 1.0).abs() < step * step, "{step}: {here} and {there}");
+    }
 }

@@ -6,6 +6,7 @@ use super::{Shake, Watcher, pair, shake, sine, structure, tight};
 use crate::equation::body::Body;
 use crate::ground::{AnySegment, Linear};
 use crate::math;
+use crate::math::sign::Sign;
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::HybridSystem;
@@ -220,6 +221,42 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     let k = 0.5 / structure.block.inertia_ratio();
     assert!((velocity * (1.0 + k * lever * lever) / 0.1 - 1.0).abs() < 1e-13, "{velocity}");
     assert_eq!(force, 0.0);
+}
+
+/// A tilted block that is about to turn outward is held by the flywheel that works outward. When weight and ground turn it inward that clutch lets go:
+/// the block goes at once where the other flywheel spins ahead of the rack, and where it stands when its bearings are overcome too.
+#[test]
+fn an_overrunning_clutch_holds_a_tilted_block_one_way() {
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let machine: HybridSystem<f64> = bearings(Engagement::Overrunning).resolve(&structure, false).unwrap();
+    let start = 0.5 * structure.block.slenderness();
+    let balance = math::tan(structure.block.slenderness() - start);
+    let bearings = 0.5 * DRY / crate::structure::block::GRAVITY;
+    let outward = 0.4 * bearings;
+    #[derive(Default)]
+    struct Goes(Option<f64>);
+    impl Observer<f64> for Goes {
+        fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            if interval.last.velocity != 0.0 {
+                self.0 = self.0.or(Some(interval.start));
+            }
+        }
+
+        fn event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
+    }
+    for (spin, expected) in [(-5.0, outward / SLOPE), (0.0, (outward + bearings) / SLOPE)] {
+        let ground = Linear { start: -balance - outward, slope: SLOPE };
+        let mut state = machine.released_at(start, 0.0, [ground.start, 0.0, 0.0]);
+        assert!(state.held && state.device.wheels[0].coupling.is_engaged());
+        let other = &mut state.device.wheels[1];
+        (other.spin, other.turning) = (spin, (spin != 0.0).then_some(Sign::Negative));
+        let limits = Limits { overturned: 1.0, events: 10_000 };
+        let mut goes = Goes::default();
+        machine.advance(&tight(), &mut state, Shaking::level(&ground), 0.1, &limits, &mut goes).unwrap();
+        let found = goes.0.unwrap();
+        assert!((found - expected).abs() < 1e-10, "{spin}: {found} for {expected}");
+        assert!(state.motion.velocity < 0.0 && state.device.wheels[1].coupling.is_engaged() == (spin == 0.0));
+    }
 }
 
 /// A push that the bearings of an engaging clutch withstand is no uplift.
