@@ -170,6 +170,9 @@ impl<S: Real> HybridSystem<S> {
                 state.motion.velocity = S::ZERO;
             }
         }
+        if self.swings(state) {
+            self.stay_on_base(state, time, observer);
+        }
     }
 
     /// A command to one clutch, if it is new.

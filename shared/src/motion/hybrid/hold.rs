@@ -127,6 +127,14 @@ impl<S: Real> HybridSystem<S> {
         self.transmission.traits().springs && state.device.wheels.iter().any(|wheel| wheel.coupling.has_twist())
     }
 
+    /// A flywheel that swings on the spring of an engaged clutch.
+    pub(super) fn swings(&self, state: &HybridState<S>) -> bool {
+        self.transmission.traits().springs
+            && state.device.wheels.iter().any(|wheel| {
+                wheel.coupling.has_twist() && (wheel.spin != S::ZERO || (wheel.twist != S::ZERO && wheel.turning.is_some()))
+            })
+    }
+
     /// Mode of a held block: its springs move the flywheels alone, until they or the ground overcome the rack's friction.
     pub(super) fn hold_law(&self, state: &HybridState<S>, law: &mut ModeCoefficients<S>) {
         let (side, rotation) = (state.motion.side.unit(), state.motion.rotation);
@@ -135,6 +143,12 @@ impl<S: Real> HybridSystem<S> {
         let friction = self.body.solve_acceleration(&configuration, moment, law.coupling, S::ZERO);
         law.dry = S::ZERO;
         law.watch[0] = if rotation == S::ZERO { Guard::HeldDown(friction, side) } else { Guard::Stuck(friction) };
+    }
+
+    /// Turns a block that is held on its base to the side to which it is pushed.
+    fn face(&self, state: &mut HybridState<S>) {
+        let (side, _) = self.lifted(state, state.ground);
+        (state.motion.side, state.motion.direction) = (side, side);
     }
 
     /// [`HybridSystem::hold`] with springs: one step, up to its first event.
@@ -148,12 +162,25 @@ impl<S: Real> HybridSystem<S> {
         observer: &mut dyn Observer<S>,
     ) {
         let on_base = state.motion.rotation == S::ZERO;
-        let rests = if on_base { self.weight(state).exceeded(shaking, *time, stop) } else { None };
+        // The clutches of a controller do not open where the weight alone holds the block.
+        let opens = on_base && !self.actuator.controlled;
+        let rests = if opens { self.weight(state).exceeded(shaking, *time, stop) } else { None };
         let end = rests.map_or(stop, |(at, _)| at);
+        if end > *time && on_base && !opens {
+            self.face(state);
+            // The springs may have turned to the other side before the step ends.
+            let (mut later, mut then) = (*state, *time);
+            self.follow(integrator, &mut later, shaking, (&mut then, end), guarded, &mut ());
+            if later.held && self.uplifting(&later, later.ground) > S::ZERO {
+                self.face(&mut later);
+                (state.motion.side, state.motion.direction) = (later.motion.side, later.motion.side);
+            }
+        }
         if end > *time {
             self.follow(integrator, state, shaking, (time, end), guarded, observer);
         }
-        if rests.is_some() && *time == end {
+        let rests = rests.is_some() && *time == end || state.held && on_base && !opens && !self.swings(state);
+        if rests {
             *state = self.standing(state, *time, observer);
         } else if state.held {
             // An event of its device may let it go.

@@ -53,7 +53,7 @@ impl<S: Real> HybridSystem<S> {
             return time;
         }
         let standing = self.standing(state, time, &mut ());
-        if self.uplifting(&standing, state.ground) > S::ZERO {
+        if self.uplifting(&standing, state.ground) > S::ZERO || self.swings(&standing) {
             self.stay_on_base(state, time, observer);
             return time;
         }

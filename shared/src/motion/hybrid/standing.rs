@@ -11,7 +11,7 @@ use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::BlockState;
+use crate::motion::state::{BlockState, Phase};
 
 impl<S: Real> HybridSystem<S> {
     /// Block and device of `state` once the block stands.
@@ -53,7 +53,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// The side to which the ground would lift a block on its base, and the threshold there.
     #[inline(never)]
-    fn lifted(&self, state: &HybridState<S>, ground: Accelerations<S>) -> (Sign, Threshold<S>) {
+    pub(super) fn lifted(&self, state: &HybridState<S>, ground: Accelerations<S>) -> (Sign, Threshold<S>) {
         let [positive, negative] = [Sign::Positive, Sign::Negative].map(|side| self.breakaway(state, side, side));
         if positive.at(ground) >= negative.at(ground) { (Sign::Positive, positive) } else { (Sign::Negative, negative) }
     }
@@ -205,15 +205,20 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// A block that falls back on its base under a ground acceleration that would uplift it, stays there while its clutches hold it.
+    /// A block that falls back on its base under a ground acceleration that would uplift it, stays there while its clutches hold it. So does one
+    /// whose flywheels swing on springs, which push it.
     pub(super) fn stay_on_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         let mut held = *state;
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let (side, threshold) = self.lifted(&held, state.ground);
         if self.transmission.traits().holds && !threshold.is_exceeded(state.ground) {
             (held.motion.side, held.motion.direction, held.held) = (side, side, true);
+            held.motion.phase = Phase::Rocking;
+            let stood = state.motion.phase == Phase::Rest;
             *state = held;
-            observer.event(Event::Rest, time, &state.motion);
+            if !stood {
+                observer.event(Event::Rest, time, &state.motion);
+            }
         }
     }
 }

@@ -19,7 +19,7 @@ use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 use crate::scene::motions::GroundMotions;
 use crate::sensor::Truth;
 use crate::simulation::drive::{Course, Segmented};
-use crate::simulation::stable_step::{fastest_decay, stable_step};
+use crate::simulation::stable_step::{fastest_decay, springs_bear, stable_step};
 
 /// Someone who watches a plant.
 pub trait Watcher: Observer<f64> + Segmented {}
@@ -65,7 +65,7 @@ pub struct Surroundings<'a> {
     pub latency: f64,
     /// Largest step, s.
     pub step: f64,
-    /// Elastic clutches by the exponential midpoint method.
+    /// Elastic clutches by the exponential midpoint method, as those are whose springs are too stiff for the step.
     pub exponential: bool,
 }
 
@@ -129,7 +129,7 @@ impl<'a> Plant<'a> {
         let decay = fastest_decay(&machine);
         // Rounding of a tick's ends must not make a step of its own.
         let step = stable_step(surroundings.step, decay) * (1.0 + 1e-9);
-        let method = if surroundings.exponential {
+        let method = if surroundings.exponential || !springs_bear(&machine, step) {
             FixedStep { scheme: Scheme::ExponentialMidpoint, step }
         } else {
             FixedStep { scheme: Scheme::RungeKutta4, step }

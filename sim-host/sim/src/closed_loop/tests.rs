@@ -120,3 +120,40 @@ fn a_straight_line_is_seen_by_its_ends() {
     }
     assert_eq!(places.next(), None);
 }
+
+/// max |θ|/α of a closed loop at `rate_hz` over a block whose clutches are held engaged.
+fn peak_of_engaged(rate_hz: u32, device: &str, ground: &str) -> f64 {
+    let text = format!(
+        "block = {{ size_m = 2.0, slenderness_deg = 12.0, restitution = 0.75 }}
+        device = [{{ kind = 'clutched-pair', mass_ratio = 0.3, flywheel.brake_deceleration_m_s2 = 2.5, {device} }}]
+        ground = [{{ motion = 'cosine', frequency_ratio = 3.0, {ground} }}]
+        controller = {{ law = 'always-engaged', rate_hz = {rate_hz}, substeps = 1 }}"
+    );
+    let desk = LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap();
+    let (.., looped) = desk.task(0, 1, &Interrupt::default()).answered::<()>().unwrap();
+    looped.extremes.peaks.rotation / desk.scene.block.slenderness()
+}
+
+/// Flywheels that swing on the springs of engaged clutches push a block that stands: it does not go back and forth between standing and rocking at one
+/// instant.
+#[test]
+fn elastic_clutches_may_stay_engaged_while_a_block_stands() {
+    for amplitude in [1.1, 1.2, 1.6] {
+        let peak = |rate_hz| {
+            let device = "clutch = { stiffness_ratio = 400, damping_ratio = 0.3 }";
+            peak_of_engaged(rate_hz, device, &format!("amplitude_ratio = {amplitude}"))
+        };
+        let [coarse, fine] = [1000, 4000].map(peak);
+        assert!((coarse / fine - 1.0).abs() < 1e-3, "{amplitude}: {coarse} {fine}");
+    }
+}
+
+/// What a spring does within a tick, however stiff, leaves the motion as it is with smaller ticks.
+#[test]
+fn springs_too_stiff_for_a_tick_stay_stable() {
+    for stiffness in [2e4, 2e5, 1e8] {
+        let device = format!("clutch = {{ stiffness_ratio = {stiffness:e}, damping_ratio = 0.1, capacity_ratio = 0.16 }}");
+        let [coarse, fine] = [500, 8000].map(|rate_hz| peak_of_engaged(rate_hz, &device, "amplitude_ratio = 1.5"));
+        assert!((coarse / fine - 1.0).abs() < 5e-3, "{stiffness}: {coarse} {fine}");
+    }
+}

@@ -1,11 +1,15 @@
 //! How long a fixed step may be beside viscous forces.
 
 use sprag_shared::equation::body::Body;
+use sprag_shared::math;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::hybrid::HybridSystem;
 
 /// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps of order 4 are stable up to 2.78 of it.
 const LONGEST: f64 = 0.5;
+
+/// Step times rate up to which they are stable, less what rounds it: 2.78 where speeds are used up, 2.83 where they swing.
+const STABLE: f64 = 2.5;
 
 /// Rate at which viscous slip, drag, bearings and rack of `machine` use up speeds of block and flywheels, at most, 1/s.
 pub(crate) fn fastest_decay<S: Real>(machine: &HybridSystem<S>) -> f64 {
@@ -15,6 +19,21 @@ pub(crate) fn fastest_decay<S: Real>(machine: &HybridSystem<S>) -> f64 {
     let slip = if transmission.slips_viscously() { parameters.damping } else { S::ZERO };
     let dashpots = slip.larger(parameters.drag) * (parameters.mobility + arm * arm);
     (dashpots + parameters.bearing_rate + parameters.rack_viscous * arm * arm).to_f64()
+}
+
+/// Whether Runge-Kutta steps of this length (s) are stable for the springs and dampers of `machine`'s clutches: both engaged at once, or one whose
+/// twist relaxes while its plates slip.
+pub(crate) fn springs_bear<S: Real>(machine: &HybridSystem<S>, step: f64) -> bool {
+    if !machine.transmission.traits().springs {
+        return true;
+    }
+    let parameters = &machine.transmission.parameters;
+    let arm = machine.body.arm(&machine.body.configuration(S::ONE, S::ZERO)).to_f64();
+    let [stiffness, damping, mobility] = [parameters.stiffness, parameters.damping, parameters.mobility].map(Real::to_f64);
+    let both = mobility + 2.0 * arm * arm;
+    let swing = math::square_root(both * stiffness).max(both * damping);
+    let relaxes = damping > 0.0 && parameters.capacity.to_f64().is_finite();
+    step * swing.max(if relaxes { stiffness / damping } else { 0.0 }) < STABLE
 }
 
 /// `step` (s), or as large a whole part of it as is stable where speeds are used up at a rate of `decay` (1/s).

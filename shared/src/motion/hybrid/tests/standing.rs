@@ -259,6 +259,43 @@ fn an_overrunning_clutch_holds_a_tilted_block_one_way() {
     }
 }
 
+/// A controller engages an elastic clutch on a flywheel that spins while the block stands: it swings on its spring, w = w₀ cos Ωt with Ω² = K/k, and lifts
+/// the block as the spring's moment passes that of the weight, sin Ωt = p² sin α Ω/(ℓKw₀).
+#[test]
+fn a_flywheel_swings_on_its_spring_under_a_standing_block() {
+    let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let engagement = Engagement::Elastic { stiffness: 1e3, damping: 0.0, backlash: 0.0, capacity_ratio: f64::INFINITY };
+    let mut machine: HybridSystem<f64> = Drivetrain { engagement, ..Drivetrain::default() }.resolve(&structure, false).unwrap();
+    machine.actuator.controlled = true;
+    let block = &structure.block;
+    let (alpha, k) = (block.slenderness(), structure.device.mass_ratio / block.inertia_ratio());
+    let stiffness = machine.transmission.parameters.stiffness;
+    let frequency = math::square_root(stiffness / k);
+    let weight = block.frequency_parameter_squared() * math::sin_cos(alpha).0;
+    for (share, wheel) in [(0.9, 0), (0.9, 1), (1.5, 0), (1.5, 1)] {
+        let spin = share * weight * frequency / (stiffness * math::cos(alpha)) * if wheel == 0 { 1.0 } else { -1.0 };
+        let mut state = machine.at_rest();
+        state.device.wheels[wheel].spin = spin;
+        machine.order(&mut state, [wheel == 0, wheel == 1], &mut ());
+        let mut nobody = ();
+        let mut watcher = Watcher::new(&mut nobody);
+        let limits = Limits { overturned: 1.0, events: 10_000 };
+        let (shaking, end) = (Shaking::level(&crate::ground::Harmonics::QUIET), 0.3);
+        machine.advance(&tight(), &mut state, shaking, end, &limits, &mut watcher).unwrap();
+        let uplift = watcher.events.iter().find(|(event, _)| *event == Event::Uplift);
+        if share < 1.0 {
+            let expected = spin * math::cos(frequency * end);
+            let found = state.device.wheels[wheel].spin;
+            assert!((found / expected - 1.0).abs() < 1e-10, "{wheel}: {found} for {expected}");
+            assert!(state.motion.rotation == 0.0 && uplift.is_none());
+        } else {
+            let expected = math::asin(1.0 / share) / frequency;
+            let found = uplift.unwrap().1;
+            assert!((found / expected - 1.0).abs() < 1e-10, "{wheel}: {found} for {expected}");
+        }
+    }
+}
+
 /// A push that the bearings of an engaging clutch withstand is no uplift.
 #[test]
 fn a_block_that_is_held_on_its_base_has_not_rocked() {
