@@ -9,4 +9,5 @@ mod friction_plates;
 mod ladder;
 mod let_go;
 mod own_law;
+mod random_loops;
 mod sensor_failures;

@@ -192,6 +192,7 @@ impl<S: Real> HybridSystem<S> {
                 self.uplift(state, shaking.at(until), until, crossing, observer);
             } else {
                 if until < duration {
+                    state.ground = shaking.at(until);
                     self.carry_out_at_rest(state, until, observer);
                 }
                 return Ok(());
