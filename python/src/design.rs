@@ -38,7 +38,7 @@ fn motions(scene: &SimScene, records: Vec<sprag_sim::record::Record>) -> Result<
     let mut motions: Vec<StudyMotion> = StudyMotion::own(scene)?.into_iter().collect();
     for record in records {
         let files = RecordFiles { horizontal: Path::new(&record.name).to_owned(), vertical: None };
-        motions.push(StudyMotion::record(&SimScene { given: [record].into(), ..scene.clone() }, &files)?);
+        motions.push(StudyMotion::record(&SimScene { given: [record.into()].into(), ..scene.clone() }, &files)?);
     }
     Ok(motions)
 }

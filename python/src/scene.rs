@@ -9,7 +9,7 @@ use serde::Deserialize;
 use sprag_sim::keys::Described;
 use sprag_sim::scene::checks::ChecksTable;
 use sprag_sim::scene::controller::ControllerTable;
-use sprag_sim::scene::ground::GroundTable;
+use sprag_sim::scene::ground::{GivenRecord, GroundTable};
 use sprag_sim::scene::schema::{AccuracyTable, BlockTable, DeviceTable, OutputTable, RunTable, SceneFile};
 use sprag_sim::scene::{Scene as SimScene, document, overrides, text_of};
 use toml::Table;
@@ -41,7 +41,7 @@ pub fn records(py: Python<'_>, named: &Named) -> Vec<sprag_sim::record::Record> 
 
 impl Scene {
     fn of(py: Python<'_>, table: Table, read: SimScene, folder: PathBuf, records: Named) -> Scene {
-        let given: Arc<[_]> = self::records(py, &records).into();
+        let given: Arc<[_]> = self::records(py, &records).into_iter().map(GivenRecord::from).collect();
         Scene { scene: SimScene { folder, given, ..read }, table, records }
     }
 }

@@ -118,16 +118,23 @@ pub enum Direction {
 pub struct GivenRecord {
     /// The file, as a motion names it.
     pub file: PathBuf,
-    /// What the motion says of its record beside the file.
-    pub options: ReadOptions,
+    /// What the motion says of its record beside the file; none of a record that is so whatever the motion says.
+    pub options: Option<ReadOptions>,
     /// What was read.
     pub record: Record,
+}
+
+impl From<Record> for GivenRecord {
+    /// The record that motions name by its name.
+    fn from(record: Record) -> GivenRecord {
+        GivenRecord { file: PathBuf::from(&record.name), options: None, record }
+    }
 }
 
 impl GivenRecord {
     /// Whether `motion` means this one.
     pub fn is_of(&self, motion: &GroundTable) -> bool {
-        motion.file.as_ref() == Some(&self.file) && motion.read_options() == self.options
+        motion.file.as_ref() == Some(&self.file) && self.options.as_ref().is_none_or(|options| *options == motion.read_options())
     }
 }
 

@@ -98,7 +98,7 @@ impl Scene {
         let mut given = self.given.to_vec();
         for motion in motions {
             let Some(file) = motion.file.clone().filter(|_| !given.iter().any(|given| given.is_of(motion))) else { continue };
-            given.push(GivenRecord { file, options: motion.read_options(), record: read(motion)? });
+            given.push(GivenRecord { file, options: Some(motion.read_options()), record: read(motion)? });
         }
         self.given = given.into();
         Ok(())
