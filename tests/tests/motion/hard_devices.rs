@@ -18,6 +18,7 @@ use sprag_sim::batch::case::TIGHT;
 use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::side_by_side::InPieces;
 use sprag_sim::simulation::drive::{Course, Overturning};
+use sprag_tests::scene_text::runs;
 
 const FREE_TIME: f64 = 6.0;
 
@@ -94,5 +95,27 @@ fn a_flywheel_slower_than_rounding_turns_no_block() {
         assert_eq!(found.impacts, state.impacts, "{tolerance}");
         assert!((other.rotation - peaks.rotation).abs() <= 1e-9 * peaks.rotation, "{tolerance}: {other:?} {peaks:?}");
         assert!((other.acceleration - peaks.acceleration).abs() <= 1e-9 * peaks.acceleration, "{tolerance}: {other:?} {peaks:?}");
+    }
+}
+
+/// The last impacts before a rest that is asked for more closely than f32 resolves, of a block that plates hold and let go.
+#[test]
+fn plates_come_to_rest_in_single_precision() {
+    let peak = |accuracy: &str| {
+        let text = format!(
+            "block = {{ size_m = 0.87, slenderness_deg = 7.0, restitution = 0.65 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 0.85, clutch = {{ capacity_ratio = 0.14 }},
+                flywheel = {{ dry_deceleration_m_s2 = 0.012, brake_deceleration_m_s2 = 'instant' }},
+                actuation = {{ release_delay_s = 0.015, rise_time_s = 0.012 }} }}]
+            ground = [{{ motion = 'half-sine', amplitude_ratio = 1.2, frequency_ratio = 1.5 }}]
+            run = {{ free_time_s = 2.5, rest_speed_ratio = 1e-9 }}
+            accuracy = {{ {accuracy} }}"
+        );
+        runs(&text)[0].peak_rotation.unwrap()
+    };
+    let exact = peak("");
+    for step in [1e-2, 3e-3, 1e-3] {
+        let single = peak(&format!("precision = 'f32', method = 'runge-kutta-4', step_ratio = {step}"));
+        assert!((single / exact - 1.0).abs() < 1e-3, "{step}: {single} for {exact}");
     }
 }

@@ -47,7 +47,7 @@ impl Drivetrain {
             scatter: structure.restitution_scatter,
             slenderness: S::of(block.slenderness()),
             speed: S::of(speed),
-            rest_speed: S::of(rest_speed * speed),
+            rest_speed: S::of(rest_speed.max(S::EPSILON.to_f64()) * speed),
             counted_speed: S::of(COUNTED_SPEED * speed),
             actuator: Actuator::of(&self.actuation),
         })
