@@ -6,13 +6,11 @@ use sprag_reference::generate::scene;
 use sprag_sim::closed_loop::LoopScene;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
+use sprag_sim::scene::controller::{EstimatorName, LawName};
 use sprag_tests::dice::Dice;
 
 const SEED: u64 = 304;
 const COUNT: u64 = 1_200;
-
-const LAWS: [&str; 8] =
-    ["passive", "always-engaged", "resisting", "resisting-predicted", "sign-table", "gated-table", "look-ahead", "costate"];
 
 fn one_of<T: Copy>(dice: &mut Dice, of: &[T]) -> T {
     of[dice.below(of.len())]
@@ -21,7 +19,7 @@ fn one_of<T: Copy>(dice: &mut Dice, of: &[T]) -> T {
 /// `[controller]` of a random loop.
 fn controller(number: u64) -> String {
     let dice = &mut Dice::new(number + 1);
-    let (law, estimator) = (one_of(dice, &LAWS), one_of(dice, &["model-aided", "complementary", "kalman"]));
+    let (law, estimator) = (one_of(dice, &LawName::ALL).name(), one_of(dice, &EstimatorName::ALL).name());
     let suite = one_of(dice, &["ideal", "adis16470", "icm-42688-p", "bmi088", "mpu-6050"]);
     let (rate, substeps, latency) =
         (one_of(dice, &[500, 1000, 2000, 4000]), one_of(dice, &[1, 4]), one_of(dice, &[0.0, 0.001, 0.02]));

@@ -1,4 +1,4 @@
-//! How long a fixed step may be beside viscous forces.
+//! How long a fixed step may be beside viscous forces and springs.
 
 use sprag_shared::equation::body::Body;
 use sprag_shared::math;
@@ -8,7 +8,7 @@ use sprag_shared::motion::hybrid::HybridSystem;
 /// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps of order 4 are stable up to 2.78 of it.
 const LONGEST: f64 = 0.5;
 
-/// Step times rate up to which they are stable, less what rounds it: 2.78 where speeds are used up, 2.83 where they swing.
+/// Step times rate up to which Runge-Kutta steps of order 4 are stable, less a margin: 2.78 where speeds are used up, 2.83 where springs swing.
 const STABLE: f64 = 2.5;
 
 /// Rate at which viscous slip, drag, bearings and rack of `machine` use up speeds of block and flywheels, at most, 1/s.

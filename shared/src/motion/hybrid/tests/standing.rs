@@ -72,22 +72,25 @@ pub fn pushed_by_a_flywheel(
     (uplift, low)
 }
 
+/// When a block that stands or is held begins to move.
+#[derive(Default)]
+struct Goes(Option<f64>);
+
+impl Observer<f64> for Goes {
+    fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        if interval.last.rotation != interval.first.rotation {
+            self.0 = self.0.or(Some(interval.start));
+        }
+    }
+
+    fn event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
+}
+
 /// The push (in g) at which a ramp of ground acceleration moves a block at rest, with the clutches that a controller has `engaged` for
 /// long and flywheels that turn at `spin` (1/s), each in its own direction.
 fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64 {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
     let mut machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
-    #[derive(Default)]
-    struct First(Option<f64>);
-    impl Observer<f64> for First {
-        fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-            if interval.last.rotation != 0.0 {
-                self.0 = self.0.or(Some(interval.start));
-            }
-        }
-
-        fn event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
-    }
     let mut state = machine.at_rest();
     if let Some(engaged) = engaged {
         machine.actuator.controlled = true;
@@ -98,9 +101,9 @@ fn uplift(drivetrain: &Drivetrain, engaged: Option<[bool; 2]>, spin: f64) -> f64
     let ramp = Linear { start: 0.0, slope: SLOPE };
     let shaking = Shaking::level(&ramp);
     let limits = Limits { overturned: 1.0, events: 10_000 };
-    let mut first = First::default();
-    machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut first).unwrap();
-    SLOPE * first.0.unwrap()
+    let mut goes = Goes::default();
+    machine.advance(&tight(), &mut state, shaking, 2.2, &limits, &mut goes).unwrap();
+    SLOPE * goes.0.unwrap()
 }
 
 /// tan α, and with a standing flywheel that is coupled tan α + σ d/g: its bearings resist the rack with σ m d.
@@ -233,17 +236,6 @@ fn an_overrunning_clutch_holds_a_tilted_block_one_way() {
     let balance = math::tan(structure.block.slenderness() - start);
     let bearings = 0.5 * DRY / crate::structure::block::GRAVITY;
     let outward = 0.4 * bearings;
-    #[derive(Default)]
-    struct Goes(Option<f64>);
-    impl Observer<f64> for Goes {
-        fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-            if interval.last.velocity != 0.0 {
-                self.0 = self.0.or(Some(interval.start));
-            }
-        }
-
-        fn event(&mut self, _event: Event, _time: f64, _state: &BlockState<f64>) {}
-    }
     for (spin, expected) in [(-5.0, outward / SLOPE), (0.0, (outward + bearings) / SLOPE)] {
         let ground = Linear { start: -balance - outward, slope: SLOPE };
         let mut state = machine.released_at(start, 0.0, [ground.start, 0.0, 0.0]);
