@@ -7,6 +7,7 @@
 use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_other_quantity};
 use super::error::RecordError;
 use super::number::{append_numbers, last_digit, leading_number};
+use super::text::comment;
 use super::warning::Warning;
 
 /// Characters per sample in PEER files; only used where fields touch.
@@ -25,8 +26,7 @@ struct Counts {
 pub(super) fn counts_line(lines: &[&str]) -> Option<usize> {
     lines.iter().take(MAXIMUM_HEADER_LINES).position(|line| {
         let upper = line.to_ascii_uppercase();
-        let comment = upper.trim_start().starts_with('#');
-        !comment && word_at(&upper, "NPTS").is_some()
+        comment(line).is_none() && word_at(&upper, "NPTS").is_some()
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::error::RecordError;
 use super::number::BadField;
-use super::units::{StatedUnits, Units};
+use super::units::{StatedUnits, Units, said_in, stated_in};
 use super::warning::Warning;
 
 /// Layout of a record file.
@@ -45,10 +45,13 @@ pub struct StatedStep {
     pub resolution_s: f64,
 }
 
+/// Share of a stated step by which a more exact one may differ from it: instruments have rates near round ones, and `.01` may be 0.00977.
+const LARGEST_ROUNDING: f64 = 0.05;
+
 impl StatedStep {
     /// Whether `step_s` is what was stated, up to the rounding of the print.
     pub(super) fn agrees_with(&self, step_s: f64) -> bool {
-        (step_s - self.value_s).abs() <= 0.5 * self.resolution_s * (1.0 + 1e-6)
+        (step_s - self.value_s).abs() <= (0.5 * self.resolution_s * (1.0 + 1e-6)).min(LARGEST_ROUNDING * self.value_s)
     }
 }
 
@@ -97,20 +100,37 @@ pub(super) fn bad_field(name: &str, index: usize, field: BadField) -> RecordErro
     if field.not_finite { RecordError::NotFinite { file, line, value } } else { RecordError::NotANumber { file, line, value } }
 }
 
-/// Units from header lines, given with their index from 0. Lines that say `units` go before mere hints.
+/// Units from header lines, given with their index from 0. Lines that say `units` go before mere hints, of which a remark may be one; none
+/// where several are stated.
 pub(super) fn header_units(name: &str, lines: &[(usize, &str)]) -> Result<Option<Units>, RecordError> {
-    let mut found = None;
-    for (index, line) in lines {
-        match super::units::stated_in(line) {
-            Some(StatedUnits::Known(units)) => found = Some(units),
-            Some(StatedUnits::Unknown(value)) if found.is_none() => {
-                reject_other_quantity(name, *index, line)?;
-                return Err(RecordError::UnknownUnits { file: name.to_owned(), line: index + 1, value });
+    for look in [said_in, stated_in] {
+        let (mut known, mut unknown) = (Vec::new(), None);
+        for (index, line) in lines {
+            match look(line) {
+                Some(StatedUnits::Known(units)) => known.push(units),
+                Some(StatedUnits::Unknown(value)) => unknown = unknown.or(Some((*index, *line, value))),
+                None => {}
             }
-            _ => {}
+        }
+        if let [first, rest @ ..] = known.as_slice() {
+            return Ok(rest.iter().all(|units| units == first).then_some(*first));
+        }
+        if let Some((index, line, value)) = unknown {
+            reject_other_quantity(name, index, line)?;
+            return Err(RecordError::UnknownUnits { file: name.to_owned(), line: index + 1, value });
         }
     }
-    Ok(found)
+    Ok(None)
+}
+
+/// Refuses samples that are still to be multiplied by a factor, as K-NET has them: `Scale Factor 3920(gal)/6182761`.
+pub(super) fn reject_scale_factor(name: &str, lines: &[(usize, &str)]) -> Result<(), RecordError> {
+    let scaled = |(_, line): &&(usize, &str)| line.to_lowercase().contains("scale factor") && line.contains('/');
+    lines.iter().find(scaled).map_or(Ok(()), |(index, line)| {
+        let problem =
+            format!("`{}`: samples are not multiplied by a factor; write them in one of {}", line.trim(), Units::ALLOWED);
+        Err(RecordError::Malformed { file: name.to_owned(), line: index + 1, problem })
+    })
 }
 
 /// Refuses header lines that announce a velocity, a displacement or a spectrum.

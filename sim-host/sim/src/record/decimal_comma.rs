@@ -4,6 +4,7 @@
 
 use super::error::RecordError;
 use super::table::{is_acceleration, is_time};
+use super::text::comment;
 
 /// The lines of a file with decimal commas, with points in their place; `None` if its commas are none, or may part fields.
 ///
@@ -13,10 +14,10 @@ use super::table::{is_acceleration, is_time};
 pub(super) fn with_points(name: &str, lines: &[&str]) -> Result<Option<Vec<String>>, RecordError> {
     let (mut first_comma, mut parted, mut all_decimal, mut leading_zero) = (None, false, true, false);
     for (index, line) in lines.iter().enumerate().filter(|(_, line)| is_numbers(line)) {
-        if line.contains('.') {
+        let fields = || line.split([' ', '\t', ';', '"']).filter(|field| !field.is_empty() && !is_date(field));
+        if fields().any(|field| field.contains('.')) {
             return Ok(None);
         }
-        let fields = || line.split([' ', '\t', ';', '"']).filter(|field| !field.is_empty());
         for (number, field) in fields().enumerate() {
             parted |= number > 0;
             if !field.contains(',') {
@@ -47,9 +48,15 @@ fn is_numbers(line: &str) -> bool {
         && line.chars().all(allowed)
 }
 
+/// `12.03.1999`.
+fn is_date(field: &str) -> bool {
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    field.split('.').count() == 3 && field.split('.').all(digits)
+}
+
 /// `time_ms,acc_gal`.
 fn names_two_columns(line: &str) -> bool {
-    let names: Vec<&str> = line.trim_start_matches(['#', '%', '!', '*', '/', '|']).split(',').collect();
+    let names: Vec<&str> = comment(line).unwrap_or(line).split(',').collect();
     names.len() == 2 && names.iter().any(|name| is_time(name) || is_acceleration(name))
 }
 
@@ -96,7 +103,7 @@ mod tests {
     #[test]
     fn decimal_commas_between_other_separators_are_decimal_marks() {
         for separator in [";", "\t", "  ", " ; "] {
-            for header in ["", "Zeit (s);Beschleunigung (m/s^2)\n", "# NPTS=4, DT=0,01\n"] {
+            for header in ["", "12.03.1999\n", "Zeit (s);Beschleunigung (m/s^2)\n", "# NPTS=4, DT=0,01\n"] {
                 let rows = [("0,00", "0,0000"), ("0,01", "0,1499"), ("0,02", "-1,5E-1"), ("0,03", "1")];
                 let body: String = rows.iter().map(|(time, value)| format!("{time}{separator}{value}\n")).collect();
                 let record = read(&format!("{header}{body}")).unwrap_or_else(|error| panic!("{header}{body}: {error}"));

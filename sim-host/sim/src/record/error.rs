@@ -115,7 +115,7 @@ pub enum RecordError {
         expected: usize,
     },
     /// Neither the file nor the caller says what unit the samples have.
-    #[error("{file}: no units in the file: say them with --units ({})", Units::ALLOWED)]
+    #[error("{file}: no units in the file, or several: say them with --units ({})", Units::ALLOWED)]
     MissingUnits {
         /// File as named by the caller.
         file: String,

@@ -42,15 +42,11 @@ pub fn peak(values: &[f64]) -> f64 {
 /// Trapezoidal integral from 0, one value per sample.
 pub fn integral(values: &[f64], step_s: f64) -> Vec<f64> {
     let mut sum = 0.0;
-    let mut previous = values.first().copied().unwrap_or(0.0);
-    values
-        .iter()
-        .map(|value| {
-            sum += 0.5 * (previous + value) * step_s;
-            previous = *value;
-            sum
-        })
-        .collect()
+    let steps = values.windows(2).map(|pair| {
+        sum += 0.5 * (pair[0] + pair[1]) * step_s;
+        sum
+    });
+    std::iter::once(0.0).chain(steps).take(values.len()).collect()
 }
 
 /// Ground velocity (m/s): the trapezoidal integral of the acceleration (m/s²) from rest, less its own least-squares
@@ -202,6 +198,13 @@ mod tests {
         let line = |samples: &[f64]| cumulative_absolute_velocity_m_s(samples, 1.0);
         assert!((line(&[-1.0, 3.0, 1.0, 0.0]) - 3.75).abs() < 1e-12);
         assert_eq!((line(&[0.0, 0.0]), line(&[0.0, -2.0]), line(&[-2.0, 0.0]), line(&[-2.0, -4.0])), (0.0, 1.0, 1.0, 3.0));
+    }
+
+    /// Of v = 1 + 2t sampled at 0, 1, 2 and 3 s: d = t + t².
+    #[test]
+    fn a_displacement_begins_at_0_whatever_the_velocity_is() {
+        assert_eq!(displacement_m(&[1.0, 3.0, 5.0, 7.0], 1.0), [0.0, 2.0, 6.0, 12.0]);
+        assert!(displacement_m(&[], 1.0).is_empty());
     }
 
     #[test]

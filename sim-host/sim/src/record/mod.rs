@@ -53,13 +53,15 @@ pub const TIME_STEP_RANGE_S: (f64, f64) = (1e-5, 1.0);
 pub struct Component(String);
 
 impl Component {
-    /// Position among the labels of a file: the same name, a word of the name, or the number; case does not matter.
+    /// Position among the labels of a file: the same name, a word that only one of the names has, or the number; case does not matter.
     fn position_in(&self, labels: &[&str]) -> Option<usize> {
         let asked = self.0.to_lowercase();
         let same = |label: &&str| label.to_lowercase() == asked;
         let word = |label: &&str| label.to_lowercase().split(|c: char| !c.is_alphanumeric()).any(|word| word == asked);
         let number = || asked.parse::<usize>().ok().filter(|number| (1..=labels.len()).contains(number)).map(|number| number - 1);
-        labels.iter().position(same).or_else(|| labels.iter().position(word)).or_else(number)
+        let mut having = labels.iter().enumerate().filter(|(_, label)| word(label)).map(|(at, _)| at);
+        let only = || having.next().filter(|_| having.next().is_none());
+        labels.iter().position(same).or_else(only).or_else(number)
     }
 }
 

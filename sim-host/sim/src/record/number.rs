@@ -131,6 +131,23 @@ pub(super) fn last_digit(text: &str) -> f64 {
     math::pow(10.0, exponent - decimals.min(300) as f64)
 }
 
+/// Value of the last printed digit of a column. Some programs leave trailing zeros out, so numbers with fewer digits than others say nothing.
+pub(super) fn column_resolution<'a>(fields: impl Iterator<Item = &'a str>) -> f64 {
+    let printed = fields.map(|field| (significant_digits(field), last_digit(field)));
+    printed
+        .fold(
+            (0, 0.0),
+            |most: (usize, f64), field| if field.0 > most.0 || (field.0 == most.0 && field.1 > most.1) { field } else { most },
+        )
+        .1
+}
+
+/// Digits of a number from its first one that is not zero: 3 of `0.0120`.
+fn significant_digits(text: &str) -> usize {
+    let mantissa = text.split(['E', 'e', 'D', 'd']).next().unwrap_or_default();
+    mantissa.chars().filter(char::is_ascii_digit).skip_while(|digit| *digit == '0').count()
+}
+
 /// First number in a piece of header text, with the text it was written as. Leading blanks, `=` and `:` are skipped.
 pub(super) fn leading_number(text: &str) -> Option<(f64, &str)> {
     let text = text.trim_start_matches([' ', '\t', '=', ':']);
@@ -179,6 +196,20 @@ mod tests {
         assert!(numbers("1e999", None).unwrap_err().not_finite);
         assert!(numbers("0.1,,0.2", None).is_err());
         assert!(numbers("é-é", Some(15)).is_err());
+    }
+
+    #[test]
+    fn a_column_is_as_exact_as_its_longest_numbers() {
+        for (fields, expected) in [
+            ("0 0.005 0.01 0.015 0.1 1", 1e-3),
+            ("0.000 0.005 10.005", 1e-3),
+            ("0 1 999.999 1000.01", 0.01),
+            ("0.00E+00 5.00E-03 1.00E-02", 1e-4),
+            ("0 5 10", 1.0),
+        ] {
+            let found = column_resolution(fields.split(' '));
+            assert!((found / expected - 1.0).abs() < 1e-12, "{fields}: {found}");
+        }
     }
 
     #[test]

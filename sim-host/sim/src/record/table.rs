@@ -1,9 +1,10 @@
 //! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
 
 use super::at2;
-use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units};
+use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_scale_factor};
 use super::error::RecordError;
-use super::number::{append_numbers, last_digit};
+use super::number::{append_numbers, column_resolution, last_digit};
+use super::text::comment;
 use super::units::{StatedUnits, Units, stated_in};
 use super::warning::Warning;
 use super::{Component, ReadOptions, resample, time_axis};
@@ -35,10 +36,8 @@ impl Rows<'_> {
 fn rows<'a>(name: &str, lines: &[&'a str]) -> Result<Rows<'a>, RecordError> {
     let mut rows = Rows { values: Vec::new(), starts: Vec::new(), header: Vec::new() };
     for (index, line) in lines.iter().enumerate() {
-        let plain = line.trim_start();
-        let uncommented = plain.trim_start_matches(['#', '%', '!', '*', '/', '|']);
-        if uncommented.len() < plain.len() {
-            rows.header.push((index, uncommented.trim()));
+        if let Some(text) = comment(line) {
+            rows.header.push((index, text.trim()));
             continue;
         }
         let start = rows.values.len();
@@ -57,6 +56,7 @@ fn rows<'a>(name: &str, lines: &[&'a str]) -> Result<Rows<'a>, RecordError> {
 /// Reads the lines of a text with columns.
 pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<Contents, RecordError> {
     let mut rows = rows(name, lines)?;
+    reject_scale_factor(name, &rows.header)?;
     let (samples, step) = stated_counts(&rows);
     let unreadable_samples = rows.header.iter().find_map(|(_, line)| at2::unreadable_samples(line)).filter(|_| samples.is_none());
     let stated_first_row = take_counts_row(&mut rows, lines);
@@ -78,6 +78,7 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
         (None, names) => {
             let mut contents = Contents::new(Format::Values);
             let column = names.as_deref().and_then(|names| names.first()).copied().unwrap_or_default();
+            reject_other_column(name, column, names_line)?;
             contents.units = units_of(name, column, names_line, &rows)?;
             contents.header = header;
             contents.values = rows.values;
@@ -137,15 +138,32 @@ fn column_names<'a>(rows: &Rows<'a>) -> Option<(usize, Vec<&'a str>)> {
     let width = rows.row(0).len();
     let first_row = rows.starts.first()?.0;
     rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty()).find_map(|(index, line)| {
+        // As of a row of numbers, a separator at its end parts nothing.
+        let line = line.strip_suffix([',', ';']).unwrap_or(line);
         let parted = line.contains([',', ';', '\t']);
-        let names: Vec<&str> = if parted {
-            line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect()
-        } else {
-            line.split_whitespace().collect()
-        };
-        let named = names.iter().any(|name| is_time(name) || is_acceleration(name));
+        let names: Vec<&str> =
+            if parted { line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect() } else { words(line) };
+        let named = names.iter().any(|name| is_time(name) || is_acceleration(name) || other_quantity(name).is_some());
         (names.len() == width && named).then_some((*index, names))
     })
+}
+
+/// The words of a line, each with the unit in brackets behind it: `Time (s)`.
+fn words(line: &str) -> Vec<&str> {
+    let mut words = Vec::new();
+    let mut rest = line.trim_start();
+    while !rest.is_empty() {
+        let word = rest.find(char::is_whitespace).unwrap_or(rest.len());
+        let blanks = rest[word..].len() - rest[word..].trim_start().len();
+        let unit = &rest[word + blanks..];
+        let end = match unit.find([')', ']']).filter(|_| unit.starts_with(['(', '['])) {
+            Some(bracket) => word + blanks + bracket + 1,
+            None => word,
+        };
+        words.push(&rest[..end]);
+        rest = rest[end..].trim_start();
+    }
+    words
 }
 
 fn first_word(name: &str) -> String {
@@ -174,6 +192,14 @@ fn other_quantity(name: &str) -> Option<&'static str> {
         word if word.contains("veloc") || matches!(word, "vel" | "vels") => Some("velocity"),
         word if word.contains("spectr") => Some("a spectrum"),
         _ => None,
+    })
+}
+
+/// Refuses a column, named in line `line` from 0, whose name says that it is no acceleration.
+fn reject_other_column(name: &str, column: &str, line: usize) -> Result<(), RecordError> {
+    other_quantity(column).map_or(Ok(()), |quantity| {
+        let quantity = format!("{quantity} in column {}", column.chars().take(40).collect::<String>());
+        Err(RecordError::NotAcceleration { file: name.to_owned(), line: line + 1, quantity })
     })
 }
 
@@ -242,17 +268,15 @@ fn read_columns(
     contents.header = header;
     contents.component = (columns.len() > 1).then(|| labels[chosen].to_owned());
     let names_line = names.as_ref().map_or(0, |names| names.0);
-    if let (Some(_), Some(quantity)) = (&names, other_quantity(labels[chosen])) {
-        let quantity = format!("{quantity} in column {}", labels[chosen].chars().take(40).collect::<String>());
-        return Err(RecordError::NotAcceleration { file: name.to_owned(), line: names_line + 1, quantity });
-    }
+    reject_other_column(name, labels[chosen], names_line)?;
     contents.units = units_of(name, labels[chosen], names_line, rows)?;
     contents.values = column(columns[chosen]).collect();
     let Some(time_column) = time_column else { return Ok(contents) };
 
     let scale = names.as_ref().map_or(1.0, |(_, names)| seconds_per_unit(names[time_column]));
     let times: Vec<f64> = column(time_column).map(|time| time * scale).collect();
-    let resolution = rows.starts.iter().map(|start| field_resolution(lines[start.0], time_column)).fold(0.0, f64::max) * scale;
+    let printed = rows.starts.iter().filter_map(|start| field(lines[start.0], time_column));
+    let resolution = column_resolution(printed) * scale;
     if times.len() < 2 {
         return Ok(contents);
     }
@@ -289,10 +313,10 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Value of the last printed digit of one field of a line.
-fn field_resolution(line: &str, column: usize) -> f64 {
-    let fields = line.split([' ', '\t', ',', ';']).filter(|field| !field.is_empty());
-    fields.into_iter().nth(column).map_or(0.0, |field| last_digit(field.trim_matches('"')))
+/// One field of a line.
+fn field(line: &str, column: usize) -> Option<&str> {
+    let mut fields = line.split([' ', '\t', ',', ';']).filter(|field| !field.is_empty());
+    fields.nth(column).map(|field| field.trim_matches('"'))
 }
 
 #[cfg(test)]

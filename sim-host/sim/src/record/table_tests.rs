@@ -22,6 +22,10 @@ fn tables_with_a_header_need_no_options() {
         "\"Time (s)\",\"Acceleration (g)\"\r\n0.00,0.1\r\n0.01,-0.2\r\n0.02,0.05\r\n",
         "% a station, units: g\n  0.00  0.1\n  0.01 -0.2\n  0.02 0.05\n",
         "Time (ms);Acc (g)\n0;0.1\n10;-0.2\n20;0.05\n",
+        "Time (ms)  Acceleration (g)\n0 0.1\n10 -0.2\n20 0.05\n",
+        "# time (ms)   acc (g)\n0 0.1\n10 -0.2\n20 0.05\n",
+        "time_ms,acc_g,\n0,0.1,\n10,-0.2,\n20,0.05,\n",
+        "% NPTS = 3, DT = 0.01\n% Time (s), Acceleration (g)\n0.00 0.1\n0.01 -0.2\n0.02 0.05\n",
         "time acc_g\n1.00\t0.1\n1.01\t-0.2\n# a comment between\n1.02\t0.05\n\n",
     ] {
         let record = plain(text).unwrap_or_else(|error| panic!("{text}: {error}"));
@@ -42,7 +46,7 @@ fn values_alone_need_a_step_and_units() {
     assert!((record.acceleration_m_s2[1] + 2.0).abs() < 1e-12);
     assert_eq!(
         read(text, &step).unwrap_err().to_string(),
-        "t.txt: no units in the file: say them with --units (g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2)"
+        "t.txt: no units in the file, or several: say them with --units (g, m/s2, cm/s2 (gal), mm/s2, in/s2, ft/s2)"
     );
     assert_eq!(
         read("1\n2\n3\n", &ReadOptions { units: Some(Units::StandardGravity), ..ReadOptions::default() })
@@ -52,6 +56,29 @@ fn values_alone_need_a_step_and_units() {
     );
     let commented = plain("# dt = 0.02 s, units: cm/s2\n1\n2\n3\n").unwrap();
     assert_eq!((commented.time_step_s, commented.units), (0.02, Units::CentimetrePerSecondSquared));
+}
+
+#[test]
+fn a_remark_does_not_overrule_the_units_and_two_remarks_state_none() {
+    let units = |header: &str| plain(&format!("# DT = 0.02\n{header}1\n2\n3\n")).map(|record| record.units);
+    let (said, remark) = ("# units: cm/s2\n", "# PGA 0.300 (g)\n");
+    for header in [format!("{said}{remark}"), format!("{remark}{said}"), format!("{said}{said}")] {
+        assert_eq!(units(&header).unwrap(), Units::CentimetrePerSecondSquared, "{header}");
+    }
+    assert_eq!(units(remark).unwrap(), Units::StandardGravity);
+    for header in ["# PGA 294.2 (cm/s^2)\n# PGA 0.300 (g)\n", "# units: g\n# units: cm/s2\n"] {
+        assert!(matches!(units(header), Err(RecordError::MissingUnits { .. })), "{header}");
+    }
+}
+
+#[test]
+fn samples_with_a_scale_factor_are_refused() {
+    let text = "Sampling Freq(Hz)   100Hz\nScale Factor   3920(gal)/6182761\nMax. Acc. (gal)   94.7\n 10 20 30\n";
+    assert!(
+        message(text).starts_with("t.txt: line 2: `Scale Factor   3920(gal)/6182761`: samples are not multiplied"),
+        "{}",
+        message(text)
+    );
 }
 
 #[test]
@@ -79,9 +106,54 @@ fn components_of_a_table_are_chosen_by_name_or_number() {
 }
 
 #[test]
+fn a_word_of_several_names_chooses_none() {
+    let text = "time_s,acc_x_g,acc_y_g\n0,0,1\n0.01,0.2,2\n0.02,0.1,3\n";
+    for (component, found) in [("acc", None), ("g", None), ("y", Some("acc_y_g")), ("ACC_X_G", Some("acc_x_g"))] {
+        let read = read(text, &ReadOptions { component: Some(component.into()), ..ReadOptions::default() });
+        assert_eq!(read.ok().and_then(|record| record.component).as_deref(), found, "{component}");
+    }
+}
+
+/// Times as `%g` and spreadsheets write them, without trailing zeros.
+#[test]
+fn a_time_column_without_trailing_zeros_gives_the_true_step() {
+    for (step, rows) in
+        [(0.005, 101), (0.006, 100), (0.015, 200), (0.0125, 400), (0.00125, 3000), (0.007_812_5, 2000), (0.0025, 1000)]
+    {
+        let rows: String = (0..rows).map(|row| format!("{},0.{}\n", f64::from(row) * step, row % 7)).collect();
+        let record = plain(&format!("time_s,acc_g\n{rows}")).unwrap();
+        assert!((record.time_step_s / step - 1.0).abs() < 1e-9, "{step}: {}", record.time_step_s);
+    }
+}
+
+#[test]
+fn a_step_that_is_given_replaces_one_that_is_stated_only_where_it_is_near() {
+    let of = |given: f64| {
+        let text = "# dt = .01, units: g\n1\n2\n3\n";
+        read(text, &ReadOptions { time_step_s: Some(given), ..ReadOptions::default() }).unwrap()
+    };
+    assert_eq!(of(0.009_77).time_step_s, 0.009_77);
+    for given in [0.005, 0.0149] {
+        let record = of(given);
+        assert_eq!(record.time_step_s, 0.01, "{given}");
+        assert!(record.warnings.contains(&Warning::TimeStepNotUsed { given_s: given, stated_s: 0.01 }), "{given}");
+    }
+}
+
+#[test]
 fn columns_of_other_quantities_are_refused() {
+    for text in ["vel_m_s,disp_m\n0,0\n0.01,0.2\n0.02,0.1\n", "vel_m_s\n0\n0.2\n0.1\n", "velocity (m/s)\n0\n0.2\n0.1\n"] {
+        let options = ReadOptions {
+            units: Some(Units::MetrePerSecondSquared),
+            time_step_s: Some(0.01),
+            component: Some("1".into()),
+            ..ReadOptions::default()
+        };
+        let error = read(text, &options).unwrap_err();
+        assert!(matches!(error, RecordError::NotAcceleration { line: 1, .. }), "{text}: {error}");
+    }
     let text = "time_s,acc_g,disp_m,vel_m_s,x_disp\n0,0.1,5,1,1\n1,0.2,6,1,1\n";
-    for component in ["disp_m", "disp", "vel_m_s", "x_disp", "3"] {
+    for component in ["disp_m", "vel_m_s", "x_disp", "3"] {
         let options =
             ReadOptions { units: Some(Units::StandardGravity), component: Some(component.into()), ..ReadOptions::default() };
         let error = read(text, &options).unwrap_err();

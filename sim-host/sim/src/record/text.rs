@@ -25,6 +25,13 @@ pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<String, RecordError> {
     })
 }
 
+/// What stands behind the marks of a comment, if the line is one.
+pub(super) fn comment(line: &str) -> Option<&str> {
+    let plain = line.trim_start();
+    let text = plain.trim_start_matches(['#', '%', '!', '*', '/', '|']);
+    (text.len() < plain.len()).then_some(text)
+}
+
 /// The lines of a text without their ends: `\n`, `\r\n`, or `\r` alone in files of old machines.
 pub(super) fn lines(text: &str) -> Vec<&str> {
     let end = if text.contains('\n') { '\n' } else { '\r' };

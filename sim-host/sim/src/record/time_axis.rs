@@ -47,7 +47,10 @@ pub(super) fn equal_steps(times_s: &[f64], resolution_s: f64) -> Result<EqualSte
     let uncertainty = resolution_s / count;
     Ok(EqualSteps {
         start_s: *first,
-        step: StatedStep { value_s: shortest_decimal(mean_s, uncertainty), resolution_s: 2.0 * uncertainty },
+        step: StatedStep {
+            value_s: shortest_decimal(mean_s, uncertainty.min(RELATIVE_TOLERANCE * mean_s)),
+            resolution_s: 2.0 * uncertainty,
+        },
     })
 }
 

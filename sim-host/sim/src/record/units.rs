@@ -92,20 +92,23 @@ pub(super) enum StatedUnits {
     Unknown(String),
 }
 
-/// Looks for units in one header line: `UNITS OF G`, `units: cm/s2`, `Acceleration (m/s^2)`, `acc_g`, a bare `cm/sec/sec`.
-pub(super) fn stated_in(line: &str) -> Option<StatedUnits> {
+/// What one header line says by the word units: `UNITS OF G`, `units: cm/s2`.
+pub(super) fn said_in(line: &str) -> Option<StatedUnits> {
     let lower = line.to_lowercase();
-    if let Some(at) = lower.find("units").map(|at| at + 5).or_else(|| lower.find("unit:").map(|at| at + 4)) {
-        let after = lower[at..].trim_start_matches([' ', '\t', ':', '=']);
-        let after = ["of ", "in ", "are ", "is "].iter().find_map(|word| after.strip_prefix(word)).unwrap_or(after);
-        let word = after.trim_start().split([' ', '\t', ',', ';']).next().unwrap_or("");
-        if let Some(units) = Units::from_spelling(word) {
-            return Some(StatedUnits::Known(units));
-        }
-        if !word.is_empty() {
-            return Some(StatedUnits::Unknown(word.chars().take(40).collect()));
-        }
+    let at = lower.find("units").map(|at| at + 5).or_else(|| lower.find("unit:").map(|at| at + 4))?;
+    let after = lower[at..].trim_start_matches([' ', '\t', ':', '=']);
+    let after = ["of ", "in ", "are ", "is "].iter().find_map(|word| after.strip_prefix(word)).unwrap_or(after);
+    let word = after.trim_start().split([' ', '\t', ',', ';']).next().unwrap_or("");
+    let known = Units::from_spelling(word).map(StatedUnits::Known);
+    known.or_else(|| (!word.is_empty()).then(|| StatedUnits::Unknown(word.chars().take(40).collect())))
+}
+
+/// Looks for units in one header line: [by the word](said_in), or `Acceleration (m/s^2)`, `acc_g`, a bare `cm/sec/sec`.
+pub(super) fn stated_in(line: &str) -> Option<StatedUnits> {
+    if let Some(said) = said_in(line) {
+        return Some(said);
     }
+    let lower = line.to_lowercase();
     let bracketed = || lower.split(['(', '[']).skip(1).filter_map(|part| part.split([')', ']']).next());
     let words = || lower.split([' ', '\t', ',', ';', '"']);
     let known = bracketed().find_map(Units::from_spelling).map(StatedUnits::Known);
