@@ -18,7 +18,7 @@ pub struct ScaledParameters<S> {
     pub mobility: S,
     /// Guided rack: its mass ratio over λ …
     pub rack_coupling: S,
-    /// … and times p².
+    /// … and its inertia force over ü_g/g while the block stands, 1/s².
     pub rack_push: S,
     /// Push of a support of its own motion, through a locked flywheel, on the rack: k n (ü_s − ü_g)/R over ü_g/g, which is
     /// σ n (f − 1) p²; 1/s².
@@ -109,11 +109,13 @@ impl<S: Real> ScaledParameters<S> {
         }
     }
 
-    /// On `support`, which moves horizontally; `ratio` is that of [`Mount::support_ratio`].
+    /// On `support`, which moves horizontally; `ratio` is that of [`Mount::support_ratio`]. The rack rides on the support: with n of the
+    /// ratio it accelerates by ü_s + n (ẍ − (ü_s − ü_g)).
     ///
     /// [`Mount::support_ratio`]: crate::structure::mount::Mount::support_ratio
     pub fn on_support(self, support: Support, mass_ratio: f64, ratio: f64, p2: f64) -> ScaledParameters<S> {
         ScaledParameters {
+            rack_push: self.rack_push * S::of(1.0 + (1.0 - ratio) * (support.amplification - 1.0)),
             support_push: S::of(mass_ratio * ratio * (support.amplification - 1.0) * p2),
             relative_push: S::of(if support.own_motion { mass_ratio * ratio * p2 } else { 0.0 }),
             ..self

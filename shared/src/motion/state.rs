@@ -2,6 +2,7 @@
 
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
+use crate::motion::observer::{Event, Observer};
 
 /// Phase of the motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,6 +63,20 @@ impl<S: Real> BlockState<S> {
             terminal_acceleration_sign: side,
             impacts: self.impacts,
             ..BlockState::default()
+        }
+    }
+
+    /// Moves outward at |θ| of `angle` (rad) or beyond.
+    pub(super) fn is_outward_at(&self, angle: S) -> bool {
+        self.side == self.direction && self.side.times(self.rotation) >= angle
+    }
+
+    /// Ends a motion at `time` (s), on ground that has come to rest: a block that moves outward at `no_return` (rad,
+    /// [`crate::structure::block::Geometry::point_of_no_return`]) or beyond has overturned, although it may not lie on the ground yet.
+    pub fn end(&mut self, no_return: S, time: S, observer: &mut (impl Observer<S> + ?Sized)) {
+        if self.phase == Phase::Rocking && self.is_outward_at(no_return) {
+            self.phase = Phase::Overturned;
+            observer.event(Event::Overturned, time, self);
         }
     }
 

@@ -33,9 +33,10 @@ impl Shaken {
         let Shaken { rotation, velocity, impacts, mut peaks, .. } = self;
         let mut state = system.released_at(rotation, velocity, 0.0);
         state.impacts = impacts;
+        let no_return = structure.geometry.point_of_no_return(structure.block.slenderness(), 0.0);
         let overturned = plain.overturned_at(match structure.geometry {
             Geometry::Full => core::f64::consts::FRAC_PI_2,
-            Geometry::Slender => structure.geometry.point_of_no_return(structure.block.slenderness(), 0.0),
+            Geometry::Slender => no_return,
         });
         let method = Taylor::<f64, TERMS>::adaptive(TIGHT);
         system.advance(
@@ -46,6 +47,7 @@ impl Shaken {
             &Limits { overturned, events: MOST_EVENTS },
             &mut peaks,
         )?;
+        state.end(no_return, free_time, &mut peaks);
         Ok(Shaken { phase: state.phase, rotation: state.rotation, velocity: state.velocity, impacts: state.impacts, peaks })
     }
 }

@@ -191,10 +191,12 @@ pub fn followed<'a>(runs: &[(&Subject, Shaking<'a>)]) -> Vec<Option<Followed>> {
             let (force, stroke_m) = moved.support_force_ratio().zip(moved.stroke())?;
             Some(DeviceDemand { force_ratio: force * heavier, stroke_m })
         };
-        let ended = moved.and_then(|moved| match block.ground {
-            Ground::Record(_) => moved.after(block, scene.free_time_s()).ok(),
-            Ground::Pieces(_) => Some(moved),
-        });
+        let free_time = match block.ground {
+            Ground::Record(_) => scene.free_time_s(),
+            // The last of them.
+            Ground::Pieces(_) => 0.0,
+        };
+        let ended = moved.and_then(|moved| moved.after(block, free_time).ok());
         found[*index] = ended.map(|moved| Followed { motion: Shaken::from(moved), demand: demand(&moved) });
     }
     found

@@ -88,9 +88,11 @@ impl Model {
         -((GRAVITY + shaking.vertical) * pose.sin + ground) / self.block.size
     }
 
-    /// Moment of `locked` flywheels that the support drives, over mR².
+    /// Moment of the rack and `locked` flywheels that the support drives, over mR². A rack on a support that outruns the ground by a is at
+    /// a (1 − r) where the block does not move.
     pub fn support_push(&self, pose: &Pose, shaking: Shaking, locked: f64) -> f64 {
-        locked * self.device.inertance * pose.lever * self.device.support * shaking.support / self.block.size
+        let Device { inertance, guided, support: ratio, .. } = self.device;
+        (locked * inertance * ratio - guided * (1.0 - ratio)) * pose.lever * shaking.support / self.block.size
     }
 
     /// Acceleration of the terminals by weight, ground and support alone, over R: the `a` of Eq. 10, with the flywheel that it would engage

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::block::{Block, GRAVITY, Geometry};
-use crate::device::Device;
+use crate::device::{Coupling, Device};
 use crate::effort::Effort;
 use crate::equation::Model;
 use crate::ground::Ground;
@@ -69,10 +69,15 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);
     let mut runner = Runner::new(&model, rotation, velocity, effort);
     let mut run = runner.follow(end, interval, 1e-6 * unit)?;
-    // Nothing pushes a slender block any more that leans outward beyond its balance.
+    // Nothing but friction holds a block any more that leans outward beyond its balance, and springs pull at it.
     let state = runner.state();
-    let beyond = state.rotation().abs() > model.block.slenderness && state.rotation() * state.velocity() > 0.0;
-    if run.outcome == "safe" && model.block.geometry == Geometry::Slender && beyond {
+    let balance = match (model.block.geometry, model.device.coupling) {
+        (Geometry::Slender, _) => model.block.slenderness,
+        (Geometry::Full, Coupling::Elastic { .. }) => f64::INFINITY,
+        (Geometry::Full, _) => model.block.slenderness + (held(&model.block, &model.device) / GRAVITY).atan(),
+    };
+    let beyond = state.rotation().abs() > balance && state.rotation() * state.velocity() > 0.0;
+    if run.outcome == "safe" && beyond {
         run.outcome = overturned_after(run.impacts);
     }
     Ok(run)
@@ -90,8 +95,15 @@ fn point_of_no_return(block: &Block, device: &Device, (horizontal, vertical, sup
     }
     let lightest = (GRAVITY - vertical.bound()).max(0.05 * GRAVITY);
     let (lever, _) = device.lever.at(1.0, block.slenderness);
-    let plates = if device.capacity.is_finite() { 2.0 * device.capacity } else { 0.0 };
     let moved = 2.0 * device.inertance * device.support.abs() * support.bound(horizontal.bound());
-    let holds = device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates;
-    block.slenderness * 3.0 + 1.5 * (horizontal.bound() * (1.0 + device.guided * lever) + lever * (moved + holds)) / lightest
+    let pushed = horizontal.bound() * (1.0 + device.guided * lever) + lever * moved;
+    block.slenderness * 3.0 + 1.5 * (pushed + held(block, device)) / lightest
+}
+
+/// Largest moment of all friction about a toe, as a horizontal acceleration.
+fn held(block: &Block, device: &Device) -> f64 {
+    let lever =
+        (0..=64).map(|part| device.lever.at(1.0, block.slenderness * (1.0 - f64::from(part) / 16.0)).0.abs()).fold(0.0, f64::max);
+    let plates = if device.capacity.is_finite() { 2.0 * device.capacity } else { 0.0 };
+    lever * (device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates)
 }

@@ -13,6 +13,7 @@ use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_sim::batch::case::{Case, CaseResult, PulseShape, TIGHT};
+use sprag_tests::scene_text::{IDEAL_DEVICES, RIGID_PAIR, runs};
 use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};
 
 /// Cases of all kinds, the same on every machine.
@@ -335,3 +336,50 @@ fn a_motion_that_never_dies_has_a_result() {
         }
     }
 }
+
+/// A large block falls slowly: some 5 s after the ground has come to rest it is on its way.
+const SLOW: &str = r#"
+[block]
+size_m = 6.0
+slenderness_deg = 10.0
+[[ground]]
+motion = "sine"
+amplitude_g = 0.45
+frequency_hz = 0.35
+"#;
+
+#[test]
+fn a_block_that_cannot_return_when_its_run_ends_has_overturned() {
+    for (events, devices) in [("", format!("{IDEAL_DEVICES}{RIGID_PAIR}")), (STEP_ENDS, IDEAL_DEVICES.to_owned())] {
+        let ends = |seconds: u32| runs(&format!("{SLOW}{devices}{events}[run]\nfree_time_s = {seconds}\n"));
+        let (soon, late) = (ends(5), ends(60));
+        assert!(late.iter().any(|run| run.end_time_s > 5.0 + 1.0 / 0.35), "some fall for longer");
+        for (soon, late) in soon.iter().zip(&late) {
+            assert_eq!(soon.outcome, late.outcome, "{} {events}", soon.device);
+            assert!(soon.end_time_s <= late.end_time_s, "{}", soon.device);
+        }
+    }
+}
+
+/// The history has two rows wherever another flywheel is engaged from then on, at impacts too.
+#[test]
+fn clutch_switches_are_those_of_the_history() {
+    let scene =
+        "[block]\nsize_m = 2.0\nslenderness_deg = 10.0\n[[ground]]\nmotion = \"sine\"\namplitude_g = 0.4\nfrequency_hz = 1.0\n";
+    for events in ["", STEP_ENDS] {
+        // A sample a step.
+        let devices = if events.is_empty() { format!("{IDEAL_DEVICES}{RIGID_PAIR}") } else { IDEAL_DEVICES.to_owned() };
+        let runs = runs(&format!("{scene}{devices}{events}[output]\ninterval_s = 0.001\n"));
+        for run in &runs {
+            let engaged: Vec<u8> = run.history.samples.iter().map(|sample| sample.engaged).collect();
+            let changes = engaged.windows(2).filter(|pair| pair[0] != pair[1]).count();
+            assert_eq!(run.clutch_switches as usize, changes, "{} {events}", run.device);
+            let pair = run.device.contains("pair");
+            assert_eq!(changes > 0, pair, "{}", run.device);
+            // A clutch that resists before an impact is released there.
+            assert!(!pair || changes > 2 * run.impacts as usize, "{}: {changes} of {} impacts", run.device, run.impacts);
+        }
+    }
+}
+
+const STEP_ENDS: &str = "[accuracy]\nmethod = \"runge-kutta-4\"\nstep_s = 0.001\nevents = \"step-end\"\n";

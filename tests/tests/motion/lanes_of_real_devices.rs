@@ -175,10 +175,8 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Movin
         let asked: Vec<HybridBlock<'_>> = motions.iter().map(|moving| block(moving.ground)).collect();
         for ((block, moving), found) in asked.iter().zip(motions).zip(shake_hybrid(&asked, Registers::Widest)) {
             let found = found.expect("lanes take it");
-            let found = match block.ground {
-                Ground::Record(_) => found.after(block, FREE_TIME).unwrap(),
-                Ground::Pieces(_) => found,
-            };
+            let free_time = if let Ground::Record(_) = block.ground { FREE_TIME } else { 0.0 };
+            let found = found.after(block, free_time).unwrap();
             let Steps { plain, located, by_core } = found.steps;
             for (sum, number) in seen.steps.iter_mut().zip([plain, located, by_core]) {
                 *sum += number;

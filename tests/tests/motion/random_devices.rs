@@ -152,7 +152,7 @@ fn lanes_and_the_core_agree_on_random_devices() {
         let (outcome, peaks) = by_core(&course, &system, TIGHT);
         let pieces = InPieces::new(&level, vertical, free_time);
         let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground: pieces.ground(), checks: None };
-        let found = shake_hybrid(&[block], Registers::Widest)[0].expect("lanes take it");
+        let found = shake_hybrid(&[block], Registers::Widest)[0].expect("lanes take it").after(&block, 0.0).unwrap();
         let case = format!("case {seed}: {structure:?} {drivetrain:?}");
         assert_eq!(Shaken::from(found).outcome(), outcome, "{case}");
         outcomes[outcome as usize] += 1;

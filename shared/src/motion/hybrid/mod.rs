@@ -199,9 +199,7 @@ impl<S: Real> HybridSystem<S> {
                 return Ok(());
             }
         }
-        let outward =
-            state.motion.side == state.motion.direction && state.motion.side.times(state.motion.rotation) >= limits.overturned;
-        if outward {
+        if state.motion.is_outward_at(limits.overturned) {
             state.motion.phase = Phase::Overturned;
             observer.event(Event::Overturned, *time, &state.motion);
             return Ok(());

@@ -33,6 +33,8 @@ impl Drivetrain {
         let (moves, carried) = (self.support.own_motion, ratio.is_some());
         require("support_motion", 1.0, !moves || carried, "none for vertical devices at the base corners")?;
         let ratio = ratio.unwrap_or_default();
+        let rides = moves && self.rack.guided_mass_ratio > 0.0;
+        require("pulley_ratio", ratio, !rides || ratio == 1.0, "1 for a guided rack on a support of its own motion")?;
         let speed = block.frequency_parameter() * block.slenderness();
         Ok(HybridSystem {
             body: structure.body(consistent, vertical)?,

@@ -5,6 +5,7 @@ use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, GUARDS, ModeCoefficients};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
+use crate::math;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::state::Phase;
@@ -63,17 +64,30 @@ impl<S: Real> HybridSystem<S> {
     /// Bound of the push on the block, over its weight at its lightest, that decides where it can no longer return
     /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g), accelerations of a
     /// support of its own motion relative to the ground within ±`support` (in g), and a 1 + v̈_g/g of at least `lightest`: a light block falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed
-    /// too, and friction may hold the block beyond.
+    /// too, and friction of rack, bearings and plates may hold the block beyond. A spring without a capacity counts for nothing.
     pub fn push_bound(&self, bound: f64, support: f64, lightest: f64) -> f64 {
         let parameters = &self.transmission.parameters;
         let p2 = self.body.frequency_squared().to_f64();
         let lever = match self.body {
             AnyBody::Slender(body) => body.lever.to_f64(),
-            AnyBody::Full(_) => 1.0,
+            // Its longest.
+            AnyBody::Full(body) => {
+                let (along, across) = (body.lever.along.to_f64(), body.lever.across.to_f64());
+                math::square_root(along * along + across * across)
+            }
         };
+        let capacity = parameters.capacity.to_f64();
+        let plates = if capacity.is_finite() { capacity } else { 0.0 };
+        let bearing = parameters.inertance.to_f64() * parameters.bearing_dry.to_f64();
+        let dry = (parameters.rack_dry.to_f64() + 2.0 * (bearing + plates)) * (1.0 + parameters.load_friction.to_f64());
         let at_rack = parameters.rack_push.to_f64() + 2.0 * parameters.support_push.to_f64().abs();
-        let (held, pushed) = (lever * parameters.rack_dry.to_f64() / p2, lever * at_rack / p2);
+        let (held, pushed) = (lever * dry / p2, lever * at_rack / p2);
         let by_support = 2.0 * lever * parameters.relative_push.to_f64().abs() / p2 * support;
         (bound * (1.0 + pushed) + by_support + held) / lightest
+    }
+
+    /// [`HybridSystem::push_bound`] on ground that has come to rest; without a bound where springs may push too.
+    pub fn last_push_bound(&self) -> f64 {
+        if self.transmission.traits().springs { f64::INFINITY } else { self.push_bound(0.0, 0.0, 1.0) }
     }
 }

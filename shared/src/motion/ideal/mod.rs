@@ -123,8 +123,7 @@ impl<S: Real> IdealSystem<S> {
                     None => return Ok(()),
                 }
             }
-            let outward = state.side == state.direction && state.side.times(state.rotation) >= limits.overturned;
-            if outward {
+            if state.is_outward_at(limits.overturned) {
                 state.phase = Phase::Overturned;
                 observer.event(Event::Overturned, time, state);
                 return Ok(());

@@ -34,8 +34,8 @@ const QUANTITIES: usize = 5;
 /// The last of them.
 const SUPPORT: usize = 4;
 
-/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; a block that stands asks for
-/// a friction of |ü_g/g|/(1 + v̈_g/g), which is below tan α.
+/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; one that stands asks for
+/// a friction of |ü_g/g|/(1 + v̈_g/g), which grows to tan α before it rocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
     /// Time of the present ground segment's start from the origin, s; the caller sets it.

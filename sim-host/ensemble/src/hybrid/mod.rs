@@ -156,17 +156,20 @@ pub(crate) struct Kind {
 }
 
 impl HybridMotion {
-    /// `block` `free_time` (s) after its ground motion.
+    /// The end of `block`, on ground that has come to rest, `free_time` (s) after its ground motion.
     ///
     /// # Errors
     /// The core's.
     pub fn after(mut self, block: &HybridBlock<'_>, free_time: f64) -> Result<HybridMotion, Stopped> {
-        if self.state.motion.phase != Phase::Overturned {
+        let system = block.system;
+        let (state, mut watch) = self.watched(block.ground.duration());
+        if state.motion.phase != Phase::Overturned && free_time > 0.0 {
             let limits = Limits { overturned: block.overturned(0.0), events: MOST_EVENTS };
             let quiet = Shaking::level(&Harmonics::QUIET);
-            let (state, mut watch) = self.watched(block.ground.duration());
-            hybrid(Method::Adaptive(TIGHT)).advance(block.system, state, quiet, free_time, &limits, &mut watch)?;
+            hybrid(Method::Adaptive(TIGHT)).advance(system, state, quiet, free_time, &limits, &mut watch)?;
         }
+        let no_return = block.geometry().point_of_no_return(system.slenderness, system.last_push_bound());
+        state.motion.end(no_return, free_time, &mut watch);
         Ok(self)
     }
 

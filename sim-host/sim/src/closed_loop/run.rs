@@ -201,6 +201,7 @@ impl ClosedLoop<'_> {
             plant.advance(&instants, watcher, &mut see).map_err(LoopError::Stopped)?;
             tick += 1;
         }
+        plant.end(watcher);
         let end = plant.whereabouts();
         if let (Phase::Overturned, Some((entered, state))) = (end.motion.phase, fall) {
             faults.truncate(entered);

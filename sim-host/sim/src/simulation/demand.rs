@@ -3,6 +3,7 @@
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::observers::checks::{Checks, Extreme, Report};
+use sprag_shared::structure::Base;
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::device::DeviceKind;
 use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
@@ -10,13 +11,14 @@ use sprag_shared::structure::inertance::Flywheel;
 
 use super::coil_use::CoilUse;
 use super::run::Task;
+use crate::ground_motion::GroundMotion;
 use crate::scene::checks::ChecksTable;
 use crate::scene::device::FlywheelTable;
 
 /// The results of `[checks]`, the fall of a block that overturns left out; none where the block never rocked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Demand {
-    /// Coefficient of friction without which the toe would slide.
+    /// Coefficient of friction without which the toe would slide, or the block that never rocks.
     pub friction_needed: Option<f64>,
     /// When, s.
     pub friction_needed_time_s: Option<f64>,
@@ -148,13 +150,22 @@ fn tooth_stresses<S: Real>(task: &Task<'_>, table: &ChecksTable, report: &Report
     ratios.iter().map(|ratio| tooth.bending_stress(load * ratio) * 1e-6).collect()
 }
 
+/// Largest |ü_g/g|/(1 + v̈_g/g), by the bounds of both, of a block that never rocks, where `table` asks for the friction: up to tan α it would
+/// slide before it does.
+fn standing_friction(task: &Task<'_>, table: &ChecksTable) -> Option<f64> {
+    let stands = matches!(task.scene.file.block.base(), Base::Rigid) && table.friction_coefficient.is_some();
+    let largest = task.ground.horizontal.segments().iter().map(|segment| segment.bound).fold(0.0, f64::max);
+    let lightest = task.ground.vertical.as_ref().map_or(1.0, GroundMotion::lightest);
+    stands.then(|| largest / lightest)
+}
+
 impl Demand {
     /// Of what `checks` found about the device of `task`.
     pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report);
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
-            friction_needed: number(&report.friction),
+            friction_needed: number(&report.friction).or_else(|| standing_friction(task, table)),
             friction_needed_time_s: report.friction.map(|extreme| extreme.time.to_f64()),
             smallest_vertical_reaction_ratio: number(&report.vertical),
             contact_lost_time_s: report.contact_lost.map(Real::to_f64),

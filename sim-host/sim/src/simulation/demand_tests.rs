@@ -1,3 +1,6 @@
+use sprag_shared::observers::outcome::Outcome;
+use sprag_shared::structure::block::Geometry;
+
 use super::*;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
@@ -82,6 +85,22 @@ fn every_run_says_what_friction_an_impact_needs() {
         let needed = run.impulses.impact_friction_needed.unwrap();
         assert!((needed - expected).abs() < 1e-6 && run.checks.is_none(), "{device}: {needed}");
     }
+}
+
+/// Below the threshold of uplift the friction needed is that of the ground, and above it at least tan α.
+#[test]
+fn a_block_that_slides_before_it_rocks_is_warned_of() {
+    let threshold = Geometry::Full.uplift_threshold(10_f64.to_radians());
+    for (amplitude, needed) in [(0.5, 0.5 * threshold), (0.99, 0.99 * threshold)] {
+        let run = runs(amplitude, "kind = 'inerter'", "[checks]\nfriction_coefficient = 0.08").remove(0);
+        let checks = run.checks.unwrap();
+        assert_eq!(run.outcome, Outcome::NoRocking);
+        assert!((checks.friction_needed.unwrap() - needed).abs() < 1e-9, "{checks:?}");
+        assert!(checks.warnings.iter().any(|warning| warning.contains("0.08 is there")), "{checks:?}");
+    }
+    let rocks = runs(1.01, "kind = 'inerter'", "[checks]\nfriction_coefficient = 0.08").remove(0);
+    assert!(rocks.checks.unwrap().friction_needed.unwrap() >= threshold - 1e-9);
+    assert_eq!(runs(0.5, "kind = 'inerter'", "[checks]").remove(0).checks.unwrap().friction_needed, None);
 }
 
 #[test]

@@ -38,7 +38,8 @@ impl<S: Real> Segmented for Peaks<S> {
 pub enum Overturning {
     /// As soon as it can be shown not to return.
     Proven,
-    /// When it lies on the ground (full model); the slender model has no ground, so there it is the proof.
+    /// When it lies on the ground (full model), or at the end of its run is [proven](Overturning::Proven) to come there; the slender model
+    /// has no ground, so there it is the proof.
     Reached,
     /// When |θ| reaches α, even if the ground would bring it back.
     Slenderness,
@@ -79,11 +80,21 @@ impl<'a> Course<'a> {
 
     /// |θ| (rad) at which an outward motion counts as overturned while the ground stays within `bound` (in g).
     pub fn angle<S: Real>(&self, bound: f64) -> S {
-        S::of(match (self.overturning, self.geometry) {
-            (Overturning::Reached, Geometry::Full) => core::f64::consts::FRAC_PI_2,
-            (Overturning::Slenderness, _) => self.block.slenderness(),
-            _ => self.geometry.point_of_no_return(self.block.slenderness(), bound),
-        })
+        match (self.overturning, self.geometry) {
+            (Overturning::Reached, Geometry::Full) => S::of(core::f64::consts::FRAC_PI_2),
+            (Overturning::Slenderness, _) => S::of(self.block.slenderness()),
+            _ => self.no_return(bound),
+        }
+    }
+
+    /// |θ| (rad) from which an outward motion does not return while nothing pushes more than `bound` (in g).
+    pub(super) fn no_return<S: Real>(&self, bound: f64) -> S {
+        S::of(self.geometry.point_of_no_return(self.block.slenderness(), bound))
+    }
+
+    /// The same of a device on ground that has come to rest.
+    pub fn machine_no_return<S: Real>(&self, machine: &HybridSystem<S>) -> S {
+        self.no_return(machine.last_push_bound())
     }
 
     /// The block's weight at its lightest, over its weight at rest.
@@ -138,7 +149,9 @@ impl<'a> Course<'a> {
         observer.segment(self.ground.duration(), None);
         let (limits, duration) = (self.limits(0.0), S::of(self.free_time));
         let ended = method.advance(system, state, &SumSegment::QUIET, duration, &limits, observer);
-        ended.map_err(|end| end.after(self.ground.duration()))
+        ended.map_err(|end| end.after(self.ground.duration()))?;
+        state.end(self.no_return(0.0), duration, observer);
+        Ok(())
     }
 
     /// Follows a device with a memory as [`Course::follow`] an ideal one, and reports every swing to `observer`.
@@ -185,9 +198,11 @@ impl<'a> Course<'a> {
             return Ok(());
         }
         observer.segment(self.ground.duration(), None);
-        let shaking = Shaking::level(&SumSegment::QUIET);
-        let ended = integrator.advance(machine, state, shaking, S::of(self.free_time), &limits(0.0, 0.0), observer);
-        ended.map_err(|end| end.after(self.ground.duration()))
+        let (shaking, duration) = (Shaking::level(&SumSegment::QUIET), S::of(self.free_time));
+        let ended = integrator.advance(machine, state, shaking, duration, &limits(0.0, 0.0), observer);
+        ended.map_err(|end| end.after(self.ground.duration()))?;
+        state.motion.end(self.machine_no_return(machine), duration, observer);
+        Ok(())
     }
 
     /// Gives each segment of the ground, and quiet ground for the free time, to `advance` with its start and duration (s), until that says that nothing

@@ -19,7 +19,7 @@ pub struct Recorder<'a> {
     pub samples: Vec<Sample>,
     /// Times of impacts, s.
     pub impacts: Vec<f64>,
-    /// Clutch switches.
+    /// Changes of [`Sample::engaged`].
     pub switches: u32,
     /// When the base first slid, s.
     pub first_slip: Option<f64>,
@@ -118,7 +118,9 @@ impl<'a> Recorder<'a> {
     fn push(&mut self, mut sample: Sample) {
         // Where two pieces of ground motion meet, their own times may differ in the last bit.
         sample.time_s = self.samples.last().map_or(sample.time_s, |last| sample.time_s.max(last.time_s));
-        if self.samples.last() != Some(&sample) {
+        let last = self.samples.last();
+        self.switches += u32::from(last.is_some_and(|last| last.engaged != sample.engaged));
+        if last != Some(&sample) {
             self.samples.push(sample);
         }
     }
@@ -191,12 +193,7 @@ impl<S: Real> Observer<S> for Recorder<'_> {
                 self.impacts.push(at);
                 self.broken = true;
             }
-            Event::Switch => {
-                self.flush();
-                self.switches += 1;
-                self.broken = true;
-            }
-            Event::Coupling => {
+            Event::Switch | Event::Coupling => {
                 self.flush();
                 self.broken = true;
             }

@@ -42,7 +42,7 @@ pub struct Trace<S> {
     pub samples: Vec<Sample>,
     /// Times of impacts, s.
     pub impacts: Vec<f64>,
-    /// Clutch switches.
+    /// Changes of [`Sample::engaged`] from step to step.
     pub switches: u32,
     /// Largest |F|/(mg) at step ends.
     pub peak_force: f64,
@@ -86,7 +86,7 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
     if start.0 < S::ZERO || (start.0 == S::ZERO && start.1 < S::ZERO) {
         state.side = -S::ONE;
     }
-    let (mut engaged, mut next) = (false, 0.0);
+    let (mut engaged, mut next) = (u8::from(clutch.has_inerter() && !clutch.follows_signs()), 0.0);
     let quiet = (course.ground.duration(), course.free_time, None);
     let segments = course.ground.segments().iter().map(|segment| (segment.start, segment.duration, Some(segment))).chain([quiet]);
     for (origin, duration, segment) in segments {
@@ -130,13 +130,14 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
             trace.peaks.rotation = trace.peaks.rotation.larger(state.rotation.abs());
             trace.peaks.acceleration = trace.peaks.acceleration.larger(acceleration.abs());
             let engages = || steps.force_scale != 0.0 && block.engages(&state, state.side, push_at_end);
-            let works = clutch.has_inerter() && moving && (!clutch.follows_signs() || engages());
-            trace.switches += u32::from(clutch.follows_signs() && works != engaged);
-            engaged = works;
+            // A plain inerter stays on the rack while the block stands.
+            let works = clutch.has_inerter() && (!clutch.follows_signs() || (moving && engages()));
             let terminal = equation.terminal_acceleration(state.side, state.rotation, state.velocity, acceleration);
             let force = if works { terminal.to_f64() * steps.force_scale } else { 0.0 };
             trace.peak_force = trace.peak_force.max(force.abs());
             let second = clutch.follows_signs() && state.velocity < S::ZERO;
+            let before = std::mem::replace(&mut engaged, u8::from(works) << u8::from(second));
+            trace.switches += u32::from(engaged != before);
             if at >= next || falls {
                 next = (at / steps.interval).floor() * steps.interval + steps.interval;
                 trace.samples.push(Sample {
@@ -146,11 +147,7 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
                     velocity_rad_s: state.velocity.to_f64(),
                     acceleration_rad_s2: acceleration.to_f64(),
                     force_ratio: if second { [0.0, force] } else { [force, 0.0] },
-                    engaged: match (works, second) {
-                        (false, _) => 0,
-                        (true, false) => 1,
-                        (true, true) => 2,
-                    },
+                    engaged,
                     displacement_m: 0.0,
                 });
             }
@@ -160,6 +157,10 @@ fn trace<S: Real, E: Switched<S>>(block: &TimeStepping<S, E>, clutch: ClutchRule
                 return trace;
             }
         }
+    }
+    if state.rotation.abs() >= course.no_return(0.0) && state.rotation * state.velocity > S::ZERO {
+        trace.state.phase = Phase::Overturned;
+        trace.peaks.ended = Some(S::of(course.ground.duration() + course.free_time));
     }
     trace
 }
