@@ -208,6 +208,9 @@ pub trait Coils {
     /// each switch alone first.
     fn drive(&mut self, command: [bool; 2], tested: bool);
 
+    /// Ticks come every `period` s from now on.
+    fn set_period(&mut self, _period: f32) {}
+
     /// The coils' supply, V, if it is measured.
     fn supply(&self) -> Option<f32> {
         None

@@ -22,7 +22,7 @@ const SILENCE_PERIODS: u32 = 2000;
 /// for the block to move on by more than the encoder's counter knows. A new phase is written down at once.
 const EVERY: u8 = 4;
 
-/// What the coils do when the program stops: bit 0 the first, bit 1 the second.
+/// What the coils do when the program stops, or the supply is too low: bit 0 the first, bit 1 the second.
 static SAFE_STATE: AtomicU8 = AtomicU8::new(0);
 
 /// What the next tick begins with, as bits.
@@ -37,12 +37,12 @@ const TEST_SENSORS: u8 = 2;
 #[cfg(feature = "board-qemu")]
 pub static DAWDLE: core::sync::atomic::AtomicU32 = core::sync::atomic::AtomicU32::new(0);
 
-/// Sets what the coils do when the program stops.
+/// Sets what the coils do when the program stops, or the supply is too low.
 pub fn set_safe_state(engaged: [bool; 2]) {
     SAFE_STATE.store(u8::from(engaged[0]) | u8::from(engaged[1]) << 1, Ordering::Relaxed);
 }
 
-/// What the coils do when the program stops.
+/// What the coils do when the program stops, or the supply is too low.
 pub fn safe_state() -> [bool; 2] {
     let bits = SAFE_STATE.load(Ordering::Relaxed);
     [bits & 1 != 0, bits & 2 != 0]
@@ -146,8 +146,9 @@ pub fn control_tick(control: &mut Control, device: &mut Device, ring: &mut Ring,
         let asked = ASKED.load(Ordering::Relaxed);
         if asked != 0 {
             ASKED.store(0, Ordering::Relaxed);
-            // Either has taken longer than a period may.
+            // Either has taken longer than a period may, and the period may be another.
             control.last = None;
+            control.coils.set_period(device.period());
             if asked & TEST_SENSORS != 0 {
                 control.sensors.test(device.period(), device.patience());
             }
@@ -190,6 +191,7 @@ fn tick(control: &mut Control, device: &mut Device, ring: &mut Ring, outbox: &mu
     }
     if in_turn || decision.phase != control.phase {
         control.phase = decision.phase;
+        set_safe_state(device.safe_command());
         control.keeper.save(&device.retained());
         control.log.save(device);
     }

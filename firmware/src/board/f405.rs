@@ -38,9 +38,9 @@ use stm32f4xx_hal::prelude::_fugit_ExtU32;
 use stm32f4xx_hal::rcc::{Enable, Rcc};
 use stm32f4xx_hal::watchdog::IndependentWatchdog;
 
+use super::parts;
 use super::parts::inertial::MountedSensors;
 use super::parts::light::PinLight;
-use super::parts::{self, driver};
 use super::{Board, Edge, Parts, Watchdog};
 
 pub use stm32f4xx_hal::pac as chip;
@@ -110,7 +110,7 @@ impl Board for F405 {
         let c = chip.GPIOC.split(&mut rcc);
         let outputs = coils::Outputs { low: (c.pc6, c.pc7), high: (c.pc8, c.pc9), trip: a.pa6 };
         let currents = coils::Currents::new(chip.ADC1, &chip.ADC_COMMON, (c.pc0, c.pc1, c.pc2), &mut rcc);
-        let coils = coils::begin(chip.TIM8, outputs, currents, driver::design(settings, &wiring), &mut rcc);
+        let coils = coils::begin(chip.TIM8, outputs, currents, wiring, settings.period(), &mut rcc);
         supply::watch(chip.PWR, &chip.EXTI, &mut rcc);
         encoder::pause(&chip.TIM4);
         let b = chip.GPIOB.split(&mut rcc);

@@ -36,9 +36,9 @@ use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
 use stm32g4::stm32g474 as pac;
 
+use super::parts;
 use super::parts::inertial::MountedSensors;
 use super::parts::light::PinLight;
-use super::parts::{self, driver};
 use super::{Board, Edge, Parts, Watchdog};
 use pins::OutputPin;
 
@@ -108,7 +108,7 @@ impl Board for G474 {
         let wiring = Wiring::of(settings);
         let G474 { chip, crystal, check } = self;
         pins::begin(&chip.RCC);
-        let coils = coils::begin(&chip, driver::design(settings, &wiring));
+        let coils = coils::begin(&chip, wiring, settings.period());
         supply::watch(&chip);
         let last = counts.map(|counts| wiring.travel(counts));
         let encoder = encoder::Encoder::new(&chip, last);

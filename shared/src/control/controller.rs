@@ -302,7 +302,7 @@ impl<L: Law> Controller<L> {
             let wish = self.wish(state, estimate, &ahead, engaged);
             (wish, state.turns.take(model, wish, state.signs.velocity, &ahead))
         };
-        (wish, self.gate.step(&mut state.gate, wanted))
+        (wish, self.gate.step(&mut state.gate, wanted, estimate.standing))
     }
 
     /// What the law wants of the motion `ahead`. Where the block is now nobody may know: a plain inerter needs no sensor.
@@ -346,10 +346,16 @@ impl<L: Law> Controller<L> {
             slower,
         };
         let Calibration { gyroscope, encoder_zero, .. } = *state.supervisor.calibration();
+        let [.., encoder_before] = state.supervisor.trusted();
         let verdict = self.supervisor.step(&mut state.supervisor, &input);
         match verdict.biases {
-            Biases::Kept if verdict.phase == Phase::Fault => state.estimator.doubt(),
-            Biases::Kept => {}
+            Biases::Kept => {
+                // An encoder that is taken again may have lost counts, and nobody has seen its zero since.
+                let [.., encoder] = state.supervisor.trusted();
+                if verdict.phase == Phase::Fault || (encoder && !encoder_before) {
+                    state.estimator.doubt();
+                }
+            }
             Biases::Measured => {
                 state.instruments = InstrumentsState::default();
                 state.estimator = EstimatorState::default();

@@ -3,11 +3,13 @@
 //! A current must flow only while both switches are on. In a test each pulse begins with the high side alone, then the low side alone, so
 //! that a switch that has failed closed is found while the other one still guards; then both for the pull-in, whose current is the
 //! supply over the resistance, U/R; then the hold, whose current is its share of that. A switch that has failed open, a broken coil and a
-//! shorted one show in the last two. Over-current is watched at every tick, and cuts the coil off by itself until the next test.
+//! shorted one show in the last two. A coil that has just been released first waits with both sides off until its own current has died,
+//! which the high side alone would keep flowing. Over-current is watched at every tick, and cuts the coil off by itself until the next test.
 
 use super::coil::{FULL_SCALE, Feedback, PeakHold};
 use super::pull_in::Dip;
 use crate::control::monitor::coil::{CURRENT_TOLERANCE, CoilReading, CoilReport, CoilTrouble};
+use crate::settings::wiring::Wiring;
 
 /// Share of the full current, or of the threshold where that is not known, above which a current flows.
 const FLOWS: f32 = 0.1;
@@ -52,6 +54,8 @@ pub struct Switches {
 enum Stage {
     #[default]
     Released,
+    /// Both sides off, but a current still flows; 0 where no test waits for its end.
+    Dying(u32),
     HighAlone(u32),
     LowAlone(u32),
     Engaged(u32),
@@ -70,6 +74,12 @@ pub struct Coil {
 }
 
 impl CoilDesign {
+    /// Of the coils of this `wiring`, at ticks of `period`, s.
+    pub fn of(wiring: &Wiring, period: f32) -> CoilDesign {
+        let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, period);
+        CoilDesign::new(peak_hold, wiring.coil_engaged_current, wiring.coil_full_current)
+    }
+
     /// Of a coil that engages its clutch from `threshold`, A, on, and whose full current is `full`, A.
     pub const fn new(peak_hold: PeakHold, threshold: f32, full: f32) -> CoilDesign {
         let most = if full > 0.0 && OVER * full < FULL_SCALE { OVER * full } else { FULL_SCALE };
@@ -87,6 +97,11 @@ impl CoilDesign {
         current > if self.full > 0.0 { FLOWS * self.full } else { 0.5 * self.threshold }
     }
 
+    /// So little is left of a `current` that noise does not make it [flow](CoilDesign::flows).
+    fn has_died(&self, current: f32) -> bool {
+        !self.flows(2.0 * current)
+    }
+
     /// `current` is a `share` of the full one, if that is known.
     fn is_right(&self, current: f32, share: f32) -> bool {
         let right = share * self.full;
@@ -100,9 +115,9 @@ impl Coil {
     pub fn see(&mut self, design: &CoilDesign, current: f32) -> CoilReading {
         let engaged = self.feedback.engaged(current, design.threshold);
         let well = match self.stage {
-            Stage::Released => true,
+            Stage::Released => design.has_died(current),
             Stage::Engaged(ticks) => ticks > design.settled && current <= design.closed,
-            Stage::HighAlone(_) | Stage::LowAlone(_) => false,
+            Stage::Dying(_) | Stage::HighAlone(_) | Stage::LowAlone(_) => false,
         };
         if well && current < design.most && !self.cut {
             return CoilReading { engaged, report: CoilReport::Well, closed: None };
@@ -117,13 +132,18 @@ impl Coil {
         self.cut |= trouble == Some(CoilTrouble::OverCurrent);
         let report = match (trouble, self.stage) {
             (Some(trouble), _) => CoilReport::Trouble(trouble),
-            (None, Stage::HighAlone(_) | Stage::LowAlone(_)) => CoilReport::Testing,
+            (None, Stage::Dying(_) | Stage::HighAlone(_) | Stage::LowAlone(_)) => CoilReport::Testing,
             (None, Stage::Engaged(ticks)) if self.tested && ticks < design.settled => CoilReport::Testing,
             (None, Stage::Engaged(_) | Stage::Released) => CoilReport::Well,
         };
         let closed = match self.stage {
             Stage::Engaged(ticks) if ticks <= design.peak_hold.pull_in_ticks => self.dip.step(ticks, current, design.full),
             _ => None,
+        };
+        self.stage = match self.stage {
+            Stage::Released if !design.has_died(current) => Stage::Dying(0),
+            Stage::Dying(_) if design.has_died(current) => Stage::Released,
+            stage => stage,
         };
         CoilReading { engaged, report, closed }
     }
@@ -172,14 +192,15 @@ impl Coil {
         self.stage = match self.stage {
             // One that is ended by a motion engages at once.
             _ if !tested => Stage::Engaged(1),
-            Stage::Released => Stage::HighAlone(1),
+            Stage::Dying(ticks) if ticks < alone => Stage::Dying(ticks + 1),
+            Stage::Released | Stage::Dying(_) => Stage::HighAlone(1),
             Stage::HighAlone(ticks) if ticks < alone => Stage::HighAlone(ticks + 1),
             Stage::HighAlone(_) => Stage::LowAlone(1),
             Stage::LowAlone(ticks) if ticks < alone => Stage::LowAlone(ticks + 1),
             Stage::LowAlone(_) | Stage::Engaged(_) => Stage::Engaged(1),
         };
         match self.stage {
-            Stage::Released => Switches::default(),
+            Stage::Released | Stage::Dying(_) => Switches::default(),
             Stage::HighAlone(ticks) => {
                 self.tested |= ticks == 1;
                 Switches { high: true, low: 0.0 }
@@ -198,6 +219,7 @@ impl Coil {
 mod tests {
     use super::*;
     use crate::device::coil::current as converted;
+    use crate::settings::Settings;
 
     /// 24 V over 30 Ω, L/R of 5 ms, 2 kHz, pull-in of 20 ms.
     const PEAK_HOLD: PeakHold = PeakHold { pull_in_ticks: 40, hold_share: 0.35 };
@@ -267,6 +289,23 @@ mod tests {
         assert!((0..400).all(|_| bench.tick(true, false).1 == CoilReport::Well));
     }
 
+    /// Its feedback says released from 0.14 A on, and a current flows from 0.08 A on.
+    #[test]
+    fn what_is_left_of_a_hold_is_no_closed_switch() {
+        for step in 1..=14 {
+            let mut bench = Bench { current: 0.01 * step as f32, ..Bench::new() };
+            let reports: std::vec::Vec<CoilReport> = (0..400).map(|_| bench.tick(true, true).1).collect();
+            assert!(!reports.iter().any(|report| matches!(report, CoilReport::Trouble(_))), "{step}: {reports:?}");
+            assert!(reports[1..100].iter().all(|report| *report == CoilReport::Testing), "{step}: its feedback is not judged");
+            assert_eq!(reports.last(), Some(&CoilReport::Well));
+        }
+        // One that does not die is a closed switch, found while the guard is still open.
+        for broken in [Bench { low: Some(1.0), ..Bench::new() }, Bench { low: Some(1.0), high: Some(true), ..Bench::new() }] {
+            let (tick, trouble) = Bench { current: 0.28, ..broken }.found(true).expect("found");
+            assert!(trouble == CoilTrouble::LowSideClosed && tick <= 2 + 2 * DESIGN.alone(), "{tick} {trouble:?}");
+        }
+    }
+
     #[test]
     fn each_single_failure_is_found_by_the_test() {
         let whole = Bench::new();
@@ -312,6 +351,15 @@ mod tests {
         bench.low = Some(1.0);
         let found = (1..400).find(|_| bench.tick(true, false).1 == CoilReport::Trouble(CoilTrouble::LowSideClosed));
         assert!(found.is_some_and(|tick| tick < 60), "{found:?}");
+    }
+
+    #[test]
+    fn a_coil_pulls_in_for_as_long_at_any_period() {
+        let wiring = Wiring::of(&Settings::default());
+        for (period, ticks) in [(5e-4, 40), (2.5e-4, 80), (1e-3, 20)] {
+            let design = CoilDesign::of(&wiring, period);
+            assert_eq!((design.peak_hold.pull_in_ticks, design.alone(), design.settled), (ticks, ticks / 2, 3 * ticks + 1));
+        }
     }
 
     #[test]

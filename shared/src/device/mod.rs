@@ -270,9 +270,10 @@ impl Device {
         &self.decision
     }
 
-    /// Clutches engaged in the safe state.
+    /// Clutches engaged in the safe state, of the board's own: less what a fault of theirs forbids. Those of a host are somewhere else.
     pub fn safe_command(&self) -> [bool; 2] {
-        self.controller.supervisor.safe()
+        let supervisor = &self.controller.supervisor;
+        if self.attached.is_some() { supervisor.safe() } else { supervisor.safe_now(self.state.supervisor()) }
     }
 
     /// What the coils' currents said, before the tick that shall know it. Nobody asks while samples come from the link.

@@ -4,7 +4,8 @@ mod currents;
 
 use embedded_hal::digital::OutputPin;
 use embedded_hal::pwm::SetDutyCycle;
-use sprag_shared::device::coil_test::{CoilDesign, Switches as Wanted};
+use sprag_shared::device::coil_test::Switches as Wanted;
+use sprag_shared::settings::wiring::Wiring;
 use stm32f4xx_hal::gpio::{Alternate, Output, Pin, PinState, Pull};
 use stm32f4xx_hal::pac;
 use stm32f4xx_hal::rcc::Rcc;
@@ -58,7 +59,7 @@ pub struct BoardStage {
 pub type BoardCoils = DrivenCoils<BoardStage>;
 
 /// Released.
-pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: CoilDesign, rcc: &mut Rcc) -> BoardCoils {
+pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, wiring: Wiring, period: f32, rcc: &mut Rcc) -> BoardCoils {
     // Pulled up, so that a board without comparators is never stopped by them.
     let _: Pin<'A', 6, Alternate<3>> = outputs.trip.into_alternate::<3>().internal_resistor(Pull::Up);
     let (_, (first, second, ..)) = timer.pwm_hz(MODULATION, rcc);
@@ -74,7 +75,7 @@ pub fn begin(timer: pac::TIM8, outputs: Outputs, currents: Currents, design: Coi
         second: Switches { low: second, high: high.1.into_push_pull_output_in_state(PinState::Low), duty: Duty::default() },
         currents,
     };
-    DrivenCoils::new(stage, design)
+    DrivenCoils::new(stage, wiring, period)
 }
 
 fn timer() -> &'static pac::tim8::RegisterBlock {

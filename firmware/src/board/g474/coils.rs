@@ -3,7 +3,8 @@
 mod comparators;
 mod currents;
 
-use sprag_shared::device::coil_test::{CoilDesign, Switches};
+use sprag_shared::device::coil_test::Switches;
+use sprag_shared::settings::wiring::Wiring;
 use stm32g4::stm32g474 as pac;
 
 use super::pins::{self, FIRST_HIGH};
@@ -30,7 +31,7 @@ pub struct BoardStage {
 pub type BoardCoils = DrivenCoils<BoardStage>;
 
 /// Released.
-pub fn begin(chip: &pac::Peripherals, design: CoilDesign) -> BoardCoils {
+pub fn begin(chip: &pac::Peripherals, wiring: Wiring, period: f32) -> BoardCoils {
     let currents = Currents::new(chip);
     comparators::begin(chip);
     chip.RCC.apb2enr().modify(|_, w| w.tim8en().set_bit());
@@ -44,7 +45,7 @@ pub fn begin(chip: &pac::Peripherals, design: CoilDesign) -> BoardCoils {
     timer.egr().write(|w| w.ug().set_bit());
     timer.cr1().write(|w| w.arpe().set_bit().cen().set_bit());
     enable_break();
-    DrivenCoils::new(BoardStage { currents, duties: Default::default() }, design)
+    DrivenCoils::new(BoardStage { currents, duties: Default::default() }, wiring, period)
 }
 
 fn timer() -> &'static pac::tim1::RegisterBlock {

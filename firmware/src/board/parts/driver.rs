@@ -7,10 +7,9 @@
 //! at the timer's break input switch the low sides off by hardware, whatever the program does, until the next self-test.
 
 use sprag_shared::control::monitor::coil::CoilReading;
-use sprag_shared::device::coil::{FULL_SCALE, PeakHold, compare};
+use sprag_shared::device::coil::{FULL_SCALE, compare};
 use sprag_shared::device::coil_test::{Coil, CoilDesign, Switches};
 use sprag_shared::device::conditions;
-use sprag_shared::settings::Settings;
 use sprag_shared::settings::wiring::Wiring;
 
 use crate::board::Coils;
@@ -56,24 +55,19 @@ impl Duty {
     }
 }
 
-/// How the coils are driven by these settings.
-pub fn design(settings: &Settings, wiring: &Wiring) -> CoilDesign {
-    let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
-    CoilDesign::new(peak_hold, wiring.coil_engaged_current, wiring.coil_full_current)
-}
-
 /// Two coils, driven and watched.
 pub struct DrivenCoils<S> {
     stage: S,
     coils: [Coil; 2],
+    wiring: Wiring,
     design: CoilDesign,
     tested: bool,
 }
 
 impl<S: Stage> DrivenCoils<S> {
-    /// Released, by a stage that is armed.
-    pub fn new(stage: S, design: CoilDesign) -> DrivenCoils<S> {
-        DrivenCoils { stage, coils: Default::default(), design, tested: false }
+    /// Released, by a stage that is armed; with a tick every `period` s.
+    pub fn new(stage: S, wiring: Wiring, period: f32) -> DrivenCoils<S> {
+        DrivenCoils { stage, coils: Default::default(), wiring, design: CoilDesign::of(&wiring, period), tested: false }
     }
 }
 
@@ -99,6 +93,11 @@ impl<S: Stage> Coils for DrivenCoils<S> {
             // It began to fall while this was written, and its interrupt has been overwritten.
             S::force(crate::control::safe_state());
         }
+    }
+
+    #[inline(never)]
+    fn set_period(&mut self, period: f32) {
+        self.design = CoilDesign::of(&self.wiring, period);
     }
 
     #[inline]

@@ -77,7 +77,7 @@ impl Standing {
     fn begin(&self, state: &mut EstimatorState, seen: &Measured) {
         match seen.travel {
             Some(travel) if state.still == 0 => (state.offset, state.still) = (travel, 1),
-            Some(_) if u32::from(state.still) > PATIENCE * u32::from(self.ticks) => state.stand(None),
+            Some(_) if state.still > PATIENCE * u32::from(self.ticks) => state.stand(None),
             Some(_) => state.still = state.still.saturating_add(1),
             None => {}
         }
@@ -91,7 +91,7 @@ impl Standing {
             && !self.pushed(model, seen);
         state.still = if still { state.still.saturating_add(1) } else { 0 };
         let needed = if state.lost { PATIENCE * u32::from(self.ticks) } else { self.ticks.into() };
-        if u32::from(state.still) <= needed {
+        if state.still <= needed {
             return false;
         }
         state.stand(seen.travel);
@@ -107,5 +107,28 @@ impl Standing {
     #[inline]
     pub fn estimate(seen: &Measured, side: Sign) -> Estimate {
         Estimate { side, ground: seen.ground, ground_rate: seen.ground_rate, standing: true, ..Estimate::default() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::tests::example_model;
+
+    /// One that never moves, from power-on and from a reset in motion on, by the longest time that may be set.
+    #[test]
+    fn a_block_that_nobody_has_located_stands_in_the_end() {
+        let (model, seen) = (example_model(), Measured { travel: Some(0.0), ..Measured::default() });
+        let standing = Standing { rotation: 1e-4, velocity: 1e-3, ticks: u16::MAX };
+        let needed = 25 * 65_535;
+        let mut state = EstimatorState::unknown();
+        let begun = (0..2 * needed).find(|_| {
+            standing.begin(&mut state, &seen);
+            !state.lost
+        });
+        assert_eq!(begun, Some(needed + 1));
+        let mut state = EstimatorState::met(0.0, 0.0);
+        let settled = (0..2 * needed).find(|_| standing.settles(&mut state, &model, &seen));
+        assert_eq!((settled, state.lost), (Some(needed), false));
     }
 }

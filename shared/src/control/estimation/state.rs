@@ -22,7 +22,7 @@ pub struct EstimatorState {
     pub(super) blank: u16,
     pub(super) rocks: bool,
     /// Ticks for which a block that rocks has looked as if it stood.
-    pub(super) still: u16,
+    pub(super) still: u32,
     /// The last reading of the gyroscope was off by more than a jump, or turned a standing block, …
     pub(super) doubted: bool,
     /// … by this much, rad/s.

@@ -201,7 +201,8 @@ impl Monitor {
         let off = |readings: [Reading; 2], bias| off_gravity(readings.map(|reading| reading.value), bias, self.gravity);
         let block = good[1].then(|| off(sample.block_accelerometer, context.calibration.block));
         let ground = good[2].then(|| off(sample.ground_accelerometer, context.calibration.ground));
-        state.rest.step(context.at_rest, block, ground, self.rest_tolerance);
+        // An accelerometer whose bias has not been measured may be off by what a calibration takes.
+        state.rest.step(context.at_rest && context.calibrated, block, ground, self.rest_tolerance);
         if good[0] && good[3] {
             let [uncalibrated, calibrated] = self.rate_tolerances;
             let tolerance = if context.calibrated { calibrated } else { uncalibrated };

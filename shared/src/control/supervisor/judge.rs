@@ -62,7 +62,9 @@ impl Supervisor {
             other => other,
         });
         let coil = trouble(&input.coils);
-        state.ladder.release |= moved.or(coil).is_some_and(Fault::is_of_an_engaged_clutch);
+        for fault in [moved, coil].into_iter().flatten() {
+            state.ladder.note_clutch(fault);
+        }
         coil.or(clutch)
     }
 

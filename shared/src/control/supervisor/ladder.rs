@@ -4,12 +4,12 @@
 //! `docs/robustness.md` says why: one flywheel engaged for good costs a few percent of the peak, both open a half of it.
 
 use super::{Phase, Supervisor, SupervisorState, enter};
-use crate::control::monitor::fault::Fault;
+use crate::control::monitor::fault::{Fault, Wheel};
 use crate::control::sensing::sensor::Sensor;
 use crate::control::supervisor::SupervisorInput;
 use crate::control::ticks::Streak;
 
-/// Which sensors others stand in for.
+/// Which sensors others stand in for, and which clutches are not to be relied upon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Ladder {
     /// In the order of [`Sensor::ALL`].
@@ -17,14 +17,32 @@ pub(super) struct Ladder {
     /// The fault of the one that is not.
     pub lost: Option<Fault>,
     /// An engaged clutch has been found to be wrong since the fault began.
-    pub release: bool,
+    release: bool,
+    /// Each clutch has been found not to engage since the fault began.
+    missing: [bool; 2],
     /// All sensors have been good.
     good: Streak,
 }
 
 impl Default for Ladder {
     fn default() -> Ladder {
-        Ladder { trusted: [true; 4], lost: None, release: false, good: Streak::default() }
+        Ladder { trusted: [true; 4], lost: None, release: false, missing: [false; 2], good: Streak::default() }
+    }
+}
+
+impl Ladder {
+    /// Notes a fault of a clutch, for as long as the fault lasts.
+    pub fn note_clutch(&mut self, fault: Fault) {
+        self.release |= fault.is_of_an_engaged_clutch();
+        if let Some(wheel) = fault.missing_clutch() {
+            let [first, second] = self.missing;
+            self.missing = [first || wheel == Wheel::First, second || wheel == Wheel::Second];
+        }
+    }
+
+    /// Trusts every sensor; what is known of the clutches stays.
+    fn trust_all(&mut self) {
+        *self = Ladder { release: self.release, missing: self.missing, ..Ladder::default() };
     }
 }
 
@@ -37,7 +55,7 @@ impl SupervisorState {
 
 impl Supervisor {
     /// First rung. A sensor that fails while the law decides, and the others are good, is not taken any more until it has been good for
-    /// the recovery time, an encoder until it has been calibrated anew.
+    /// the recovery time, an encoder until a calibration begins.
     #[inline]
     pub(super) fn stand_in(&self, state: &mut SupervisorState) {
         if state.findings().nothing() && state.ladder.lost.is_none() {
@@ -50,8 +68,7 @@ impl Supervisor {
     fn choose_stand_in(&self, state: &mut SupervisorState) {
         let deciding = matches!(state.phase, Phase::Armed | Phase::Rocking);
         if !(self.required.has_substitutes() && deciding && state.calibrated) {
-            let release = state.ladder.release;
-            state.ladder = Ladder { release, ..Ladder::default() };
+            state.ladder.trust_all();
             return;
         }
         let (good, faults) = (state.findings().good(), state.findings().faults());
@@ -73,7 +90,7 @@ impl Supervisor {
         let lost = ladder.trusted.iter().filter(|trusted| !**trusted).count();
         // Without the ground's accelerometer it takes the block's.
         if lost > 1 || (!ladder.trusted[2] && !good[1]) {
-            *ladder = Ladder { release: ladder.release, ..Ladder::default() };
+            ladder.trust_all();
         }
     }
 
@@ -102,16 +119,14 @@ impl Supervisor {
         again
     }
 
-    /// The lower rungs.
-    pub(super) fn safe_now(&self, state: &SupervisorState) -> [bool; 2] {
-        if state.phase != Phase::Fault {
-            return self.safe;
-        }
+    /// The lower rungs: [`Supervisor::safe`], but for what a fault of the clutches that lasts forbids.
+    pub fn safe_now(&self, state: &SupervisorState) -> [bool; 2] {
         if state.ladder.release {
             return [false; 2];
         }
-        match state.cause.and_then(Fault::missing_clutch) {
-            Some(wheel) if self.safe == wheel.alone() => wheel.other().alone(),
+        match (self.safe, state.ladder.missing) {
+            ([true, false], [true, false]) => [false, true],
+            ([false, true], [false, true]) => [true, false],
             _ => self.safe,
         }
     }

@@ -251,6 +251,10 @@ impl Supervisor {
             (None, Phase::Rocking) if state.motion.quiet >= self.quiet => {
                 enter(state, input, if state.resumed { Phase::Calibrate } else { Phase::Armed });
             }
+            // By biases that are not to be trusted it would seem to move for good.
+            (None, Phase::Rocking) if state.following.unsure && state.motion.still(self.quiet) => {
+                enter(state, input, Phase::Calibrate);
+            }
             (None, Phase::Armed) if self.calibrate_again(state, input) => {}
             (None, Phase::Armed) if state.proof.goes_on() => self.prove(state, input),
             (None, Phase::Armed) if state.ladder.lost.is_none() && self.follow(state, input) => {
@@ -374,8 +378,8 @@ impl Supervisor {
 
     #[inline(never)]
     fn calibrate(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) -> Biases {
-        if state.resumed && state.motion.quiet == 0 {
-            // The next shock must not find it waiting: what it has is good enough, as before.
+        if (state.resumed || state.following.unsure) && state.motion.quiet == 0 && !state.motion.still(1) {
+            // The next shock must not find it waiting: what it has is good enough, as before. A bias alone is no shock.
             enter(state, input, Phase::Rocking);
             return Biases::Kept;
         }
@@ -419,7 +423,9 @@ fn enter(state: &mut SupervisorState, input: &SupervisorInput<'_>, phase: Phase)
     state.phase = phase;
     state.waiting = 0;
     state.self_test = SelfTest::default();
-    state.proof.end();
+    if state.proof.goes_on() {
+        proof_test::put_off(state, input);
+    }
     state.averaging = Averaging::default();
     log(state, input, Kind::Phase(phase));
 }

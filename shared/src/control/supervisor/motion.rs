@@ -29,6 +29,11 @@ fn follow(value: f32, reading: f32, limit: f32) -> f32 {
 /// time is no motion.
 const CREEPING: u32 = 256;
 
+/// A tick more; at its end the count goes on over its last [`CREEPING`] values, so that counts are taken anew no more often than before.
+fn longer(still: u32) -> u32 {
+    still.checked_add(1).unwrap_or(u32::MAX - (CREEPING - 1))
+}
+
 /// For how many ticks nothing has moved.
 ///
 /// Two criteria, because a bias is not known before it has been measured: a reading that stays near one value is still, whatever the
@@ -68,7 +73,7 @@ impl Motion {
         let [gyroscope, _, ground, encoder] = good;
         let rate = sample.gyroscope.value;
         // Without a witness nobody knows that the block is still; a ground that nobody watches is no reason to wait.
-        let mut block_still = if gyroscope || encoder { self.block_still.saturating_add(1) } else { 0 };
+        let mut block_still = if gyroscope || encoder { longer(self.block_still) } else { 0 };
         if gyroscope && (rate - self.rate).abs() > limits.rate {
             self.rate = follow(self.rate, rate, limits.rate);
             block_still = 0;

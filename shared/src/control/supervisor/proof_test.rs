@@ -6,14 +6,14 @@ use super::{Supervisor, SupervisorInput, SupervisorState, log};
 use crate::control::monitor::coil::CoilReport;
 use crate::control::monitor::fault::{Fault, Wheel};
 
-/// Part of the interval after which a test that a motion has ended is tried again.
+/// Part of the interval after which a test that has been ended is tried again.
 const AGAIN: u32 = 100;
 
 /// Where the proof tests stand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct ProofTest {
-    /// Averages of an armed controller at rest since the last one.
-    waited: u32,
+    /// Averages of an armed controller at rest since the last one, up to the interval.
+    pub waited: u32,
     /// 0 while none runs; then each clutch opens and engages, one after the other, while the other one is as the law wishes.
     step: u8,
 }
@@ -37,17 +37,20 @@ impl ProofTest {
             _ => wish,
         }
     }
+}
 
-    /// Ends the test that runs, which counts as none.
-    pub fn end(&mut self) {
-        self.step = 0;
-    }
+/// Ends the test that runs, which counts as none, and tries it again later.
+#[inline(never)]
+pub(super) fn put_off(state: &mut SupervisorState, input: &SupervisorInput<'_>) {
+    let ProofTest { waited, .. } = state.proof;
+    state.proof = ProofTest { waited: waited.saturating_sub((waited / AGAIN).max(1)), step: 0 };
+    log(state, input, Kind::Warning(Fault::SelfTestAbandoned.code()));
 }
 
 impl Supervisor {
     /// An average of an armed controller at rest has passed.
     pub(super) fn wait_for_proof(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
-        state.proof.waited = state.proof.waited.saturating_add(1);
+        state.proof.waited = state.proof.waited.saturating_add(1).min(self.proof_interval);
         if self.self_test && state.proof.waited >= self.proof_interval && input.standing && state.motion.still(self.quiet) {
             state.proof.step = 1;
         }
@@ -57,8 +60,7 @@ impl Supervisor {
     #[inline(never)]
     pub(super) fn prove(&self, state: &mut SupervisorState, input: &SupervisorInput<'_>) {
         if !(input.standing && state.motion.still(1)) {
-            state.proof = ProofTest { waited: state.proof.waited.saturating_sub((self.proof_interval / AGAIN).max(1)), step: 0 };
-            log(state, input, Kind::Warning(Fault::SelfTestAbandoned.code()));
+            put_off(state, input);
             return;
         }
         let followed = state.sent == state.proof.command(input.wish)

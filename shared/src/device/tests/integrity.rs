@@ -35,6 +35,35 @@ fn a_fault_of_the_board_stands_until_a_new_start() {
     }
 }
 
+/// What has released a clutch that must not be engaged does not become less true by a fault of the board.
+#[test]
+fn a_released_clutch_stays_released_when_the_board_stands_aside() {
+    for fault in [Fault::ImageDamaged, Fault::MemoryDamaged, Fault::ClockWrong] {
+        let mut bench = Bench::rocking();
+        assert_eq!(bench.device.safe_command(), Settings::default().safe_command());
+        let found = (0..4000).any(|_| bench.spoilt(|sample| sample.engaged[1] = true).phase == Phase::Fault);
+        assert_eq!((found, bench.device.safe_command()), (true, [false; 2]), "{:?}", bench.device.decision());
+        bench.device.accuse(fault);
+        for _ in 0..10 {
+            let decision = bench.spoilt(|sample| sample.engaged[1] = true);
+            assert_eq!((decision.fault, decision.command), (Some(fault), [false; 2]));
+        }
+    }
+    // The clutches of a host are not the board's.
+    let mut bench = Bench::armed();
+    bench.ask(Request::Attach { pace: Pace::Sample });
+    for number in 1..9000 {
+        bench.rig.shakes = number > 5000;
+        let mut sample = bench.rig.sample();
+        sample.engaged[1] |= bench.rig.shakes;
+        bench.answer(Request::Sample(TickSample { sample, ..host_sample(number) }));
+        bench.device.tick(|_| panic!("its own sensors"), 0.0);
+        bench.rig.advance(bench.device.decision().command);
+    }
+    assert_eq!((bench.device.decision().phase, bench.device.decision().command), (Phase::Fault, [false; 2]));
+    assert_eq!(bench.device.safe_command(), Settings::default().safe_command());
+}
+
 #[test]
 fn a_reset_in_motion_does_not_resume_with_a_damaged_program() {
     let retained = Bench::rocking().device.retained();

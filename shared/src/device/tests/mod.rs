@@ -1,6 +1,8 @@
 //! What a device does when it is asked, and what it resumes with after a reset.
 
 use super::{Answer, Device, Surroundings};
+use crate::control::controller::Decision;
+use crate::control::sensing::sample::Sample;
 use crate::control::supervisor::Phase;
 use crate::control::supervisor::event_log::Kind;
 use crate::device::beginning::Beginning;
@@ -59,6 +61,15 @@ impl Bench {
         self.device.tick(|own| *own = sample, 0.0);
         self.rig.advance(self.device.decision().command);
         self.device.decision().phase
+    }
+
+    /// A tick in which `spoil` changes what the sensors say.
+    fn spoilt(&mut self, spoil: impl Fn(&mut Sample)) -> Decision {
+        let mut sample = self.rig.sample();
+        spoil(&mut sample);
+        self.device.tick(|own| *own = sample, 0.0);
+        self.rig.advance(self.device.decision().command);
+        *self.device.decision()
     }
 
     /// Of the estimates of θ, rad, and θ̇, rad/s.

@@ -1,23 +1,14 @@
 //! Zeros that move: of the encoder by temperature, over a reset, or unknown from the start; and biases that drift.
 
 use super::*;
-use crate::control::controller::Decision;
-use crate::control::sensing::sample::Sample;
+use crate::control::monitor::fault::Fault;
+use crate::control::sensing::sensor::Sensor;
 use crate::math::sine32::sin_cos;
 
 /// α, rad.
 const SLENDERNESS: f32 = 0.174_532_92;
 
 impl Bench {
-    /// A tick in which `spoil` changes what the sensors say.
-    fn spoilt(&mut self, spoil: impl Fn(&mut Sample)) -> Decision {
-        let mut sample = self.rig.sample();
-        spoil(&mut sample);
-        self.device.tick(|own| *own = sample, 0.0);
-        self.rig.advance(self.device.decision().command);
-        *self.device.decision()
-    }
-
     fn lose(&mut self, counts: i32) -> Decision {
         self.spoilt(|sample| sample.encoder.counts = sample.encoder.counts.wrapping_sub(counts))
     }
@@ -130,5 +121,33 @@ fn power_that_comes_back_in_motion_finds_its_zero() {
         // Where nobody knows the rotation the law does not decide by it.
         assert!(healed.worst < 5e-3 && healed.half_cycles <= 3, "phase {phase}: {first} counts, {healed:?}");
         assert!(healed.stands, "phase {phase}: {first} counts, {healed:?}");
+    }
+}
+
+/// Its counts stay in motion and go on from elsewhere; before it is calibrated anew the ground shakes again.
+#[test]
+fn an_encoder_that_is_taken_again_is_off_until_an_impact_or_a_rest_shows_its_zero() {
+    for (counts, rested) in [(4000, 20), (-4000, 200), (12_000, 600), (-12_000, 1500)] {
+        let mut bench = Bench::rocking();
+        let stuck = bench.rig.clone().sample().encoder.counts;
+        for _ in 0..200 {
+            bench.spoilt(|sample| sample.encoder.counts = stuck);
+        }
+        assert_eq!(bench.device.decision().fault, Some(Fault::Stuck(Sensor::Encoder)));
+        bench.rig.shakes = false;
+        assert!((0..60_000).any(|_| bench.lose(counts).phase == Phase::Calibrate), "{:?}", bench.device.decision());
+        for _ in 0..rested {
+            assert_eq!(bench.lose(counts).phase, Phase::Calibrate);
+        }
+        let (mut decided, mut worst) = (0, 0.0_f32);
+        for tick in 0..20_000 {
+            bench.rig.shakes = tick < 9000;
+            let Decision { phase, estimate, .. } = bench.lose(counts);
+            if matches!(phase, Phase::Armed | Phase::Rocking) && estimate.located(SLENDERNESS) {
+                decided += u32::from(!estimate.standing);
+                worst = worst.max(bench.errors()[0] / SLENDERNESS);
+            }
+        }
+        assert!(decided > 1000 && worst < 5e-3, "{counts} counts, {rested} ticks: {decided} ticks, off by {worst}");
     }
 }

@@ -101,3 +101,33 @@ fn both_are_released_only_where_an_engaged_clutch_is_the_fault() {
     }
     assert_eq!((rig.state.phase(), rig.run(100).command), (Phase::Fault, [false; 2]));
 }
+
+/// Whatever fault came first, and whichever came with it, the clutch that can be engaged is, unless an engaged one is a fault.
+#[test]
+fn what_a_clutch_lacks_is_remembered_beside_another_fault() {
+    let mut rig = Rig::rocking(&noisy());
+    rig.wish = [false, true];
+    rig.quietly(100);
+    let spoil: Spoil = |sample, _| (sample.gyroscope.value, sample.engaged[0]) = (f32::NAN, false);
+    assert_eq!(rig.found(10, spoil), Some((1, Fault::NotFinite(Sensor::Gyroscope))));
+    for _ in 0..400 {
+        rig.spoilt(spoil);
+    }
+    assert!(rig.complaints().contains(&Kind::Fault(Fault::ClutchRefuses(Wheel::First).code())), "{:?}", rig.complaints());
+    assert_eq!(rig.spoilt(spoil).command, [false, true]);
+    // The sensor is good again, the clutch is not.
+    for _ in 0..10_000 {
+        rig.spoilt(|sample, _| sample.engaged[0] = false);
+    }
+    assert_eq!(rig.spoilt(|sample, _| sample.engaged[0] = false).command, [false, true]);
+    // A short in the one coil while the other clutch refuses.
+    let mut rig = Rig::rocking(&noisy());
+    rig.wish = [true, false];
+    rig.quietly(100);
+    for tick in 0..400 {
+        let refuses = rig.found(1, |sample, _| sample.engaged[0] = false);
+        rig.coils[1] = if tick >= 8 { CoilReport::Trouble(CoilTrouble::OverCurrent) } else { CoilReport::Well };
+        assert!(tick < 50 || refuses.is_some());
+    }
+    assert_eq!(rig.spoilt(|sample, _| sample.engaged[0] = false).command, [false; 2]);
+}

@@ -120,6 +120,15 @@ fn an_earthquake_does_not_find_it_waiting() {
     rig.wish = [false, true];
     let verdict = rig.step();
     assert_eq!((verdict.phase, verdict.command), (Phase::Rocking, [false, true]));
+    // Its biases are those of a motion, as far as it knows; the first rest measures them.
+    rig.quietly(10_000);
+    rig.shaking = 0.0;
+    let ticks = rig.until(Phase::Calibrate, 5000);
+    assert!((4000..4050).contains(&ticks), "{ticks}");
+    rig.until(Phase::Armed, 2100);
+    assert!((rig.state.calibration.gyroscope - BIAS).abs() < 3e-3);
+    rig.quietly(5000);
+    assert_eq!((rig.state.phase, rig.complaints().len()), (Phase::Armed, 1));
     // And before it can test its clutches.
     let mut rig = Rig::new(&parameters());
     rig.shaking = 1.0;
@@ -128,6 +137,43 @@ fn an_earthquake_does_not_find_it_waiting() {
     let warnings = [Fault::SelfTestAbandoned, Fault::CalibrationAbandoned].map(|fault| Kind::Warning(fault.code()));
     assert_eq!(rig.complaints(), warnings);
     assert!(!rig.kinds().contains(&Kind::Engaged(Wheel::Second)), "a pulse while it shakes");
+}
+
+/// A shock in the calibration that follows a motion is answered at once, by the biases of before.
+#[test]
+fn an_aftershock_does_not_wait_for_the_first_calibration() {
+    let mut rig = Rig::new(&parameters());
+    rig.until(Phase::Calibrate, 1000);
+    rig.shaking = 1.0;
+    rig.until(Phase::Rocking, 7000);
+    rig.shaking = 0.0;
+    rig.until(Phase::Calibrate, 5000);
+    rig.quietly(1000);
+    assert_eq!(rig.state.phase, Phase::Calibrate);
+    rig.shaking = 1.0;
+    assert!(rig.until(Phase::Rocking, 50) <= 42);
+    rig.shaking = 0.0;
+    rig.until(Phase::Armed, 7000);
+    assert!((rig.state.calibration.ground[0] - BIAS).abs() < 3e-3);
+}
+
+/// An accelerometer that is off by less than a calibration takes is none that contradicts gravity, however long the calibration takes.
+#[test]
+fn biases_are_not_held_against_accelerometers_before_they_are_measured() {
+    let slow = Parameters { calibration_time: 2.5, calibration_patience: 5.0, ..noisy() };
+    for (block, ground) in [(0.0, 0.7), (0.7, 0.0), (0.0, -0.9)] {
+        let mut rig = Rig::new(&slow);
+        let armed = (0..10_000).any(|_| {
+            let verdict = rig.spoilt(|sample, _| {
+                sample.block_accelerometer[0].value += block;
+                sample.ground_accelerometer[0].value += ground;
+            });
+            assert_eq!(verdict.fault, None, "{block} {ground}");
+            verdict.phase == Phase::Armed
+        });
+        assert!(armed && rig.complaints().is_empty(), "{block} {ground}: {:?}", rig.complaints());
+        assert!((rig.state.calibration.ground[0] - BIAS - ground).abs() < 3e-3);
+    }
 }
 
 #[test]

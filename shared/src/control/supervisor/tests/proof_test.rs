@@ -96,6 +96,36 @@ fn one_that_was_ended_is_tried_again_soon() {
     assert_eq!(rig.kinds().iter().filter(|kind| **kind == Kind::Tested).count(), 1);
 }
 
+/// A test that a swing ends, however quickly that is known, is in the log as such, and does not begin again between two shocks.
+#[test]
+fn one_that_rocking_ends_is_put_off() {
+    for after in 1..30 {
+        let mut rig = Rig::new(&Parameters { proof_test_interval: 1000.0, ..parameters() });
+        (rig.wish, rig.standing) = ([true; 2], true);
+        rig.until(Phase::Armed, 8000);
+        rig.state.proof.waited = 998;
+        while !rig.state.tests_coils() {
+            rig.quietly(1);
+        }
+        rig.quietly(after);
+        (rig.velocity, rig.standing, rig.wish) = (0.28, false, [true, false]);
+        rig.until(Phase::Rocking, 10);
+        let ended = Kind::Warning(Fault::SelfTestAbandoned.code());
+        assert_eq!(rig.complaints(), [ended], "{after}");
+        rig.until(Phase::Armed, 40_000);
+        (rig.standing, rig.wish) = (true, [true; 2]);
+        for _ in 0..10_000 {
+            rig.quietly(1);
+            assert!(!rig.state.tests_coils(), "{after}");
+        }
+        // A hundredth of the interval, in averages of a second.
+        while !rig.state.tests_coils() {
+            rig.quietly(1);
+            assert!(rig.tick < 80_000, "{after}");
+        }
+    }
+}
+
 #[test]
 fn what_does_not_follow_is_a_fault() {
     for (wheel, unwilling) in
