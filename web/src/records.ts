@@ -99,8 +99,7 @@ async function shake(store: Store, file: RecordFile, options: { units?: string; 
   const text = waitsForIt
     ? source.text
     : await engine.set({ text: source.text, records }, groundSettings(store.run?.about ?? null, [table]));
-  store.restart();
-  store.setSource({ text, records });
+  store.open({ text, records });
 }
 
 /** Takes files that are dropped anywhere on the page, and shows that it does while one is above it. */

@@ -22,9 +22,12 @@ function endOf(run: Run): number {
 export class Store {
   /** Version, examples, keys and everything else that is computed. */
   readonly engine: Engine;
+  /** Settings that bring back what letting a block go has taken away; null where nothing was, and once another scene is opened. */
+  shaken: string[] | null = null;
   private scene: Source = { text: "", records: [] };
   private preview: Source | null = null;
   private latestRun: Run | null = null;
+  private ran: Source | null = null;
   private cursorS = 0;
   private endS = 0;
   /** The last one, mostly the pair, until another is chosen. */
@@ -62,6 +65,11 @@ export class Store {
   /** The last run that ended well; null before the first. */
   get run(): Run | null {
     return this.latestRun;
+  }
+
+  /** Whether the last run is that of the scene, and no change of the scene is under way. */
+  get isUpToDate(): boolean {
+    return this.ran === this.scene && !this.isSetting;
   }
 
   /** Whether a run is under way. */
@@ -127,6 +135,13 @@ export class Store {
   /** Sets the cursor to the beginning with the next run, and plays it if `plays`. */
   restart(plays = mayMoveByItself()): void {
     this.restarts = plays;
+  }
+
+  /** Opens another scene, and runs it from its beginning. */
+  open(source: Source): void {
+    this.shaken = null;
+    this.restart();
+    this.setSource(source);
   }
 
   /** Makes `source` the scene and runs it. */
@@ -210,6 +225,7 @@ export class Store {
       return;
     }
     this.isSetting = true;
+    let isLost = false;
     while (this.pending.size > 0) {
       const base = this.scene;
       const settings = [...this.pending.values()];
@@ -220,15 +236,20 @@ export class Store {
           const later = new Map(this.pending);
           this.setSource({ text, records: base.records });
           this.pending = later;
+        } else {
+          isLost = true;
         }
       } catch (problem) {
         this.fail(problem);
-        // Controls go back to what the scene says.
-        this.notify("scene");
-        this.notify("run");
+        isLost = true;
       }
     }
     this.isSetting = false;
+    if (isLost) {
+      // Controls go back to what the scene says.
+      this.notify("scene");
+      this.notify("run");
+    }
   }
 
   private begin(): void {
@@ -255,7 +276,7 @@ export class Store {
       this.wanted = null;
       try {
         const run = await this.engine.simulate(source);
-        this.latestRun = run;
+        [this.latestRun, this.ran] = [run, source];
         this.endS = endOf(run);
         this.cursorS = Math.min(this.cursorS, this.durationS);
         if (this.wanted === null && this.remark === "") {

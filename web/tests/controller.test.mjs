@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, scene, texts, until } from "./browser.mjs";
+import { hold, holdable, isHeld, letGo } from "./hold.mjs";
 import { EXAMPLES, choose, toml } from "./shell.mjs";
 import { sections } from "./views.mjs";
 
@@ -31,8 +32,8 @@ async function looped(page, before) {
   });
 }
 
-async function openLoop(t) {
-  const page = await open(t);
+async function openLoop(t, options) {
+  const page = await open(t, options);
   await choose(page, EXAMPLES.controller);
   await sections(page).loop.scrollIntoViewIfNeeded();
   const first = await looped(page, null);
@@ -88,6 +89,33 @@ test("every setting of the controller counts, and the same setting gives the sam
     }
   }
   assert.match(await toml(page).inputValue(), /latency_s = 0.001/);
+});
+
+test("a change that comes while a loop runs is run after it", async (t) => {
+  const { page, first } = await openLoop(t, { prepare: holdable });
+  const delay = async (milliseconds) => {
+    const box = sections(page).loop.getByLabel(words.latency, { exact: true });
+    await box.fill(String(milliseconds));
+    await box.press("Tab");
+    await until("the delay", async () => (await toml(page).inputValue()).includes(`latency_s = ${milliseconds / 1000}`));
+  };
+  const shows = (wanted) => until(`the loop ${wanted}`, async () => (await digest(page)) === wanted);
+  await delay(3);
+  const last = await looped(page, first);
+  await delay(1);
+  await shows(first);
+  await hold(page, "loop");
+  await delay(2);
+  await isHeld(page, "loop");
+  await hold(page, "about");
+  await delay(3);
+  await isHeld(page, "about");
+  // The loop of 2 ms ends before the page knows what the scene with 3 ms is.
+  await letGo(page, "loop");
+  assert.notEqual(await looped(page, first), last);
+  await hold(page);
+  await letGo(page, "about");
+  await shows(last);
 });
 
 test("an injected fault is found after it began, logged, and withdrawn", async (t) => {

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
+import { hold, holdable, isHeld, letGo } from "./hold.mjs";
 import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
@@ -30,19 +31,74 @@ test("every number of block and ground changes the run, and its first value brin
   }
 });
 
-test("the block is dragged, let go, and shaken again", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
-  const block = page.getByRole("application", { name: words.block.handle });
-  await block.focus();
+/** Tilts the block and lets it go. */
+async function release(page) {
+  await page.getByRole("application", { name: words.block.handle }).focus();
   for (let step = 0; step < 4; step += 1) {
     await page.keyboard.press("ArrowRight");
   }
   await page.keyboard.press("Enter");
+}
+
+test("the block is dragged, let go, and shaken again", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  await release(page);
   const free = await anotherDigest(page, first);
   assert.notEqual(free, first);
   await page.getByRole("button", { name: words.block.shake }).click();
   await thisDigest(page, first);
+});
+
+test("a block that is shaken again keeps what was changed since it was let go", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  const resize = async (sizeM) => {
+    const box = page.getByRole("spinbutton", { name: words.controls.size, exact: true });
+    await box.fill(sizeM);
+    await box.press("Tab");
+  };
+  await resize("2.5");
+  const larger = await anotherDigest(page, first);
+  await resize("2");
+  await thisDigest(page, first);
+  await release(page);
+  const free = await anotherDigest(page, first);
+  assert.doesNotMatch(await toml(page).inputValue(), /ground\.0/, "its map goes with the ground motion");
+  await resize("2.5");
+  await anotherDigest(page, free);
+  await page.getByRole("button", { name: words.block.shake }).click();
+  await thisDigest(page, larger);
+  assert.match(await toml(page).inputValue(), /ground\.0\.frequency_hz[^]*ground\.0\.amplitude_m_s2/);
+});
+
+test("a block that was let go gives another scene no ground motion", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  await release(page);
+  await anotherDigest(page, first);
+  const shake = page.getByRole("button", { name: words.block.shake });
+  assert.ok(await shake.isVisible());
+  await choose(page, EXAMPLES.freeRocking);
+  assert.ok(!(await shake.isVisible()));
+});
+
+test("a change that is made while the one before it is run stays", async (t) => {
+  const page = await open(t, { prepare: holdable });
+  const first = await anotherDigest(page, null);
+  const add = async (kind, name) => {
+    await page.getByLabel(words.controls.addDevice, { exact: true }).selectOption(kind);
+    await until(name, async () => (await toml(page).inputValue()).includes(name));
+  };
+  await hold(page, "simulate");
+  await add("inerter", "inerter 2");
+  await isHeld(page, "simulate");
+  await add("clutched-pair", "clutched-pair 2");
+  await letGo(page, "simulate");
+  await anotherDigest(page, first);
+  // The first run is shown, and the second one is under way.
+  await add("inerter", "inerter 3");
+  assert.match(await toml(page).inputValue(), /clutched-pair 2/);
 });
 
 test("time goes where it is put, from event to event, and to the end", async (t) => {

@@ -25,6 +25,24 @@ test("a link that is opened again gives the same digest", async (t) => {
   assert.ok(hash.length < 2000, "short enough to be sent");
 });
 
+test("a scene that is too long for a link is said to be, and no link is copied", async (t) => {
+  const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
+  await anotherDigest(page, null);
+  const short = await toml(page).inputValue();
+  await toml(page).fill(`${short}# ${"x".repeat(200_000)}\n`);
+  const says = (line) =>
+    until(line, async () => {
+      await page.getByRole("button", { name: words.scene.link, exact: true }).click();
+      return page.getByText(line, { exact: true }).isVisible();
+    });
+  await says(words.scene.tooLong);
+  await page.evaluate(() => navigator.clipboard.writeText("before"));
+  await says(words.scene.tooLong);
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "before");
+  await toml(page).fill(short);
+  await says(words.scene.copied);
+});
+
 for (const [what, change] of [
   ["cut off", (hash) => hash.slice(0, hash.length / 2)],
   ["changed", (hash) => hash.replace(/.{8}$/, "%%%%%%%%")],

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { colours, digest, filled, panels, said, sections } from "./views.mjs";
-import { EXAMPLES, choose } from "./shell.mjs";
+import { EXAMPLES, anotherDigest, choose, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.views.map;
 const OVERTURNED = ["54 20 38 255", "213 94 0 255"];
@@ -103,6 +103,53 @@ test("arrow keys move over cells, Enter takes one", async (t) => {
     "the block as the scene",
     async () => (await digest(page)) !== before && !(await sections(page).map.getByRole("button", { name: words.use }).isVisible()),
   );
+});
+
+test("while a cell is played, controls change the scene, and downloads are of the cell", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  const { map } = sections(page);
+  const { controls, scene } = texts.page;
+  const axis = (key, from, to) => `{ key = "${key}", from = ${from}, to = ${to}, cells = 8 }`;
+  const axes = `[map]\nx = ${axis("block.size_m", 1, 5)}\ny = ${axis("device.2.mass_ratio", 0.2, 1.5)}\n`;
+  const text = (await toml(page).inputValue()).replace(/\[map\][^]*/, axes);
+  await toml(page).fill(text);
+  await map.scrollIntoViewIfNeeded();
+  await until("a map of 8 x 8", () => map.getByText(/^64 cells a device, in/).count());
+  const isSize = (sizeM) =>
+    until(`a size of ${sizeM} m`, async () => {
+      const shown = await page.getByRole("spinbutton", { name: controls.size, exact: true }).inputValue();
+      return Number(shown) === sizeM;
+    });
+  const play = async (key) => {
+    await panels(page).first().focus();
+    await page.keyboard.press(key);
+    await until("a block that is played", () => map.getByRole("button", { name: words.use }).isVisible());
+    return anotherDigest(page, first);
+  };
+  await play("Shift+ArrowRight");
+  await map.getByRole("button", { name: words.use }).click();
+  await isSize(5);
+  await toml(page).fill(text);
+  await thisDigest(page, first);
+  await isSize(2);
+
+  const played = await play("Shift+ArrowLeft");
+  await isSize(2);
+  const { bytes } = await downloaded(page, page.getByRole("button", { name: scene.toml, exact: true }));
+  await page.getByLabel(controls.addDevice, { exact: true }).selectOption("none");
+  const changed = await until("another device", async () => {
+    const now = await toml(page).inputValue();
+    return now.includes("none 2") && now;
+  });
+  assert.deepEqual(
+    [...changed.matchAll(/\bmass_ratio = ([\d.]+)/g)].map(([, ratio]) => Number(ratio)),
+    [0.5, 0.5],
+  );
+  assert.match(changed, /size_m = 2(\.0)?\n/);
+  await anotherDigest(page, played);
+  await toml(page).fill(bytes.toString());
+  await thisDigest(page, played);
 });
 
 test("axes, scale, bands, cut and boundaries", async (t) => {

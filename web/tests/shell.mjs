@@ -4,7 +4,12 @@ import { texts, until } from "./browser.mjs";
 const words = texts.page;
 
 /** Titles of scenes that ship. */
-export const EXAMPLES = { figure08: "Figure 8", nearFault: "Near-fault motion", controller: "Closed loop under a near-fault motion" };
+export const EXAMPLES = {
+  figure08: "Figure 8",
+  freeRocking: "Free rocking",
+  nearFault: "Near-fault motion",
+  controller: "Closed loop under a near-fault motion",
+};
 
 /** Opens a shipped scene, and waits until it has run. */
 export async function choose(page, title) {

@@ -62,6 +62,8 @@ test("ticks are round, inside, at their values, and few", () => {
     [1e-4, 1e5, "logarithmic"],
     [2, 3, "logarithmic"],
     [1e6, 5e6, "linear"],
+    [1e6, 1.2e6, "linear"],
+    [-1.2e-5, -1e-5, "linear"],
   ]) {
     const span = Span.ofCells(
       Float64Array.from({ length: 64 }, (_, cell) =>
@@ -75,10 +77,13 @@ test("ticks are round, inside, at their values, and few", () => {
     assert.ok(labelled.length >= 2 && labelled.length <= 14, `${from} to ${to}: ${labelled.map(({ text }) => text)}`);
     for (const { place, text } of labelled) {
       assert.ok(place >= -1e-9 && place <= 1 + 1e-9);
-      assert.ok(Math.abs(span.place(Number(text.replace("\u2212", "-"))) - place) < 1e-6, text);
+      assert.ok(Math.abs(span.place(Number(text.replaceAll("\u2212", "-"))) - place) < 1e-6, text);
     }
   }
   assert.equal(tickText(-0.5, 0.1), "\u22120.5");
+  const [low, step] = [1e6, 5e4];
+  const texts = [0, 1, 2, 3, 4].map((index) => tickText(low + index * step, step));
+  assert.deepEqual(texts, ["1e6", "1.05e6", "1.1e6", "1.15e6", "1.2e6"]);
 });
 
 test("bands are round and few, find their values, and fall in brightness", () => {
@@ -112,7 +117,11 @@ test("a map is the same for every scene that is a point of it, and no other", ()
   const identity = (...values) => mapIdentity(axes, scene(...values), []);
   assert.equal(identity(3, 3, 0.85), identity(5, 1, 0.85, "b"));
   assert.notEqual(identity(3, 3, 0.85), identity(3, 3, 0.9));
-  assert.notEqual(mapIdentity(axes, scene(3, 3, 0.85), [{ name: "own.csv" }]), identity(3, 3, 0.85));
+  const [own, other] = ["1", "2"].map((text) => ({ name: "own.csv", bytes: new TextEncoder().encode(text) }));
+  const shaken = (frequency, record) => mapIdentity(axes, scene(frequency, 3, 0.85), [record]);
+  assert.notEqual(shaken(3, own), identity(3, 3, 0.85));
+  assert.equal(shaken(3, own), shaken(5, own));
+  assert.notEqual(shaken(3, own), shaken(3, other), "two files of one name");
   assert.deepEqual(mapSettings(axes, scene(3, 3, 0.85)), [
     'map.x={ key = "ground.0.frequency_ratio", from = 0.2, to = 8, cells = 64, scale = "linear" }',
     'map.y={ key = "ground.0.amplitude_ratio", from = 1, to = 10, cells = 64, scale = "linear" }',

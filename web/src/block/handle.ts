@@ -1,7 +1,8 @@
 /** The block as a handle: tilt it by pointer or arrow keys and let go, and it rocks freely without ground motion. */
-import { groundSettings } from "../controls/draft";
-import type { About, Source } from "../engine";
+import { groundSettings, inline } from "../controls/draft";
+import type { About } from "../engine";
 import { say } from "../dom";
+import { lookUp } from "../map/axis";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { listOf } from "./geometry";
@@ -10,8 +11,6 @@ import type { Stage } from "./stage";
 /** Largest tilt, θ/α: a block that is let go beyond 1 overturns. */
 const MOST = 1.3;
 const KEY_STEP = 0.05;
-
-let shaken: Source | null = null;
 
 /** Makes the canvas of `stage`, within the focusable `frame`, a handle; `hint` says how far the block is tilted. */
 export function makeHandle(stage: Stage, frame: HTMLElement, hint: HTMLElement, store: Store): void {
@@ -25,7 +24,7 @@ export function makeHandle(stage: Stage, frame: HTMLElement, hint: HTMLElement, 
   };
   const letGo = () => {
     if (ratio !== null) {
-      release(store, ratio, () => show(null));
+      void release(store, ratio, () => show(null));
     }
   };
   const at = (event: PointerEvent): [number, number] => {
@@ -91,27 +90,28 @@ export function makeHandle(stage: Stage, frame: HTMLElement, hint: HTMLElement, 
 }
 
 /** Lets the blocks of the scene go from θ/α = `ratio`; `shown` is called once that run is there, or has failed. */
-function release(store: Store, ratio: number, shown: () => void): void {
+async function release(store: Store, ratio: number, shown: () => void): Promise<void> {
   const finish = () => {
     stop.forEach((end) => end());
     shown();
   };
   const stop = [store.subscribe("run", finish), store.subscribe("message", () => store.message !== "" && finish())];
-  store.restart(true);
-  const before = store.source;
-  const about = store.run?.about ?? null;
-  if (listOf(about?.resolved, "ground").length > 0) {
-    shaken = before;
+  try {
+    // The last run may be that of another block.
+    const about = await store.engine.about(store.source);
+    const settings = settingsOfRelease(about, ratio);
+    if (listOf(about.resolved, "ground").length > 0) {
+      const keys = settings.map((setting) => setting.slice(0, setting.indexOf("=")));
+      store.shaken = keys.map((key) => `${key}=${inline(lookUp(about.resolved, key))}`);
+    }
+    store.restart(true);
+    store.setSetting(...settings);
+  } catch (problem) {
+    store.fail(problem);
   }
-  store.setSetting(...settingsOfRelease(about, ratio));
 }
 
-/** The scene as it was before its ground motion was taken away by letting a block go; null where none was. */
-export function shakenBefore(): Source | null {
-  return shaken;
-}
-
-function settingsOfRelease(about: About | null, ratio: number): string[] {
-  const vertical = listOf(about?.resolved, "vertical").length > 0 ? ["vertical=[]"] : [];
+function settingsOfRelease(about: About, ratio: number): string[] {
+  const vertical = listOf(about.resolved, "vertical").length > 0 ? ["vertical=[]"] : [];
   return [`block.initial_rotation_ratio=${ratio}`, "block.initial_velocity_ratio=0", ...groundSettings(about, []), ...vertical];
 }

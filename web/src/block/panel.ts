@@ -3,7 +3,7 @@ import { el, button } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { listOf } from "./geometry";
-import { makeHandle, shakenBefore } from "./handle";
+import { makeHandle } from "./handle";
 import { results } from "./results";
 import { Stage } from "./stage";
 import { transport } from "./transport";
@@ -58,15 +58,14 @@ function again(store: Store): HTMLElement {
   line.append(
     el("span", { textContent: texts.page.block.free }),
     button(texts.page.block.shake, () => {
-      const before = shakenBefore();
-      if (before) {
-        store.restart();
-        store.setSource(before);
-      }
+      // A map that was made meanwhile stays.
+      const hasMap = store.run?.about.map != null;
+      store.restart();
+      store.setSetting(...(store.shaken ?? []).filter((setting) => !(hasMap && setting.startsWith("map="))));
     }),
   );
   store.subscribe("run", () => {
-    line.hidden = shakenBefore() === null || listOf(store.run?.about.resolved, "ground").length > 0;
+    line.hidden = store.shaken === null || listOf(store.run?.about.resolved, "ground").length > 0;
   });
   return line;
 }

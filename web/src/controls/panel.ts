@@ -15,10 +15,14 @@ export function controlPanel(store: Store): HTMLElement {
   const draft = new Draft(store);
   const groups = [groundControls(draft, store), blockControls(draft), deviceControls(draft)];
   const show = () => {
-    draft.take();
-    groups.forEach((group) => group.show());
+    if (store.isUpToDate) {
+      draft.take();
+      groups.forEach((group) => group.show());
+    }
   };
   store.subscribe("run", show);
+  // A block that is played becomes the scene without another run.
+  store.subscribe("scene", show);
   return el(
     "div",
     { className: "controls" },
@@ -36,8 +40,7 @@ function examples(store: Store): HTMLElement {
   const list = choice(words.example, [["", words.own]], (name) => {
     const example = shipped.find((one) => one.name === name);
     if (example) {
-      store.restart();
-      store.setSource({ text: example.text, records: example.records });
+      store.open({ text: example.text, records: example.records });
     }
   });
   store.engine

@@ -27,7 +27,7 @@ class LoopSection {
   private readonly tables = el("div", { className: "loop-tables" });
   private readonly downloads = el("div", { className: "buttons", hidden: true });
   private readonly charts: LoopCharts;
-  private readonly lookSoon = debounce(REST_MS, () => void this.look());
+  private readonly soon = debounce(REST_MS, () => void this.look());
   private latest = 0;
   private wanted = false;
   private running = false;
@@ -70,11 +70,6 @@ class LoopSection {
     this.soon();
   }
 
-  private soon(): void {
-    this.wanted = true;
-    this.lookSoon();
-  }
-
   /** Shows the controller of what is played, or that there is none. */
   private async look(): Promise<void> {
     this.latest += 1;
@@ -89,7 +84,7 @@ class LoopSection {
         return;
       }
       [this.none.hidden, this.body.hidden] = [about.hasController, !about.hasController];
-      this.current = about.hasController ? { about, source } : null;
+      [this.current, this.wanted] = [about.hasController ? { about, source } : null, true];
       if (about.hasController) {
         this.form.show(about.resolved);
         await this.run();

@@ -1,5 +1,5 @@
 /** Axes as the scene has them: settings, and what to suggest for a quantity. */
-import type { Axis, Key } from "../engine";
+import type { Axis, Key, RecordFile } from "../engine";
 
 /** Cells of an axis that is suggested. */
 const CELLS = 128;
@@ -64,8 +64,18 @@ export function mapSettings({ x, y }: { x: Axis; y: Axis | null }, resolved: unk
   return typeof at === "string" ? [...settings, `map.overturned_at="${at}"`] : settings;
 }
 
+/** Numbers of records: two files may have one name. */
+const numbers = new WeakMap<RecordFile, number>();
+let count = 0;
+
+function numberOf(record: RecordFile): number {
+  const number = numbers.get(record) ?? ++count;
+  numbers.set(record, number);
+  return number;
+}
+
 /** A resolved scene without the values that the axes set, and without what no cell depends on: equal for scenes with the same map. */
-export function mapIdentity({ x, y }: { x: Axis; y: Axis | null }, resolved: unknown, records: readonly { name: string }[]): string {
+export function mapIdentity({ x, y }: { x: Axis; y: Axis | null }, resolved: unknown, records: readonly RecordFile[]): string {
   const copy: unknown = structuredClone(resolved);
   for (const { key } of y === null ? [x] : [x, y]) {
     const parts = key.split(".");
@@ -78,7 +88,7 @@ export function mapIdentity({ x, y }: { x: Axis; y: Axis | null }, resolved: unk
   if (isTable(copy)) {
     delete copy["title"];
   }
-  return JSON.stringify([copy, records.map((record) => record.name)]);
+  return JSON.stringify([copy, records.map(numberOf)]);
 }
 
 /** The number of `key` in a resolved scene; null where there is none. */
@@ -87,7 +97,8 @@ export function valueOf(resolved: unknown, key: string): number | null {
   return typeof value === "number" ? value : null;
 }
 
-function lookUp(resolved: unknown, key: string): unknown {
+/** What a resolved scene has at `key`; undefined where it has nothing. */
+export function lookUp(resolved: unknown, key: string): unknown {
   return key.split(".").reduce<unknown>((table, part) => (isTable(table) ? table[part] : undefined), resolved);
 }
 

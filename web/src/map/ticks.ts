@@ -72,7 +72,9 @@ function steps(low: number, high: number, step: number): number[] {
 export function tickText(value: number, step: number): string {
   const size = Math.abs(value);
   if (size !== 0 && (size < 1e-3 || size >= 1e5)) {
-    return value.toExponential(step < size ? 1 : 0).replace("-", "\u2212");
+    const power = (number: number): number => Math.floor(Math.log10(number) + 1e-9);
+    const text = value.toExponential(Math.min(Math.max(power(size) - power(step), 0), 15));
+    return text.replace(/\.?0*e\+?/, "e").replaceAll("-", "\u2212");
   }
   const decimals = Math.min(Math.max(-Math.floor(Math.log10(step) + 1e-9), 0), 12);
   return value.toFixed(decimals).replace("-", "\u2212");

@@ -8,14 +8,26 @@ import { isPacked, pack, unpack } from "./address";
 
 const QUIET_MS = 400;
 
+let fits = true;
+
+/** Whether the address of the page has room for the scene. */
+export function fitsAddress(): boolean {
+  return fits;
+}
+
 /** Opens what the address says, now and whenever it is changed by hand, and writes every other scene into it. */
 export async function openAddress(store: Store): Promise<void> {
   let written = "";
   const write = async () => {
     const { text } = store.source;
-    const fragment = text === startText ? "" : ((await pack(text)) ?? "");
+    const packed = text === startText ? "" : await pack(text);
     // The scene may have changed while it was packed.
-    if (text === store.source.text && fragment !== location.hash) {
+    if (text !== store.source.text) {
+      return;
+    }
+    fits = packed !== null;
+    const fragment = packed ?? "";
+    if (fragment !== location.hash) {
       written = fragment;
       history.replaceState(null, "", fragment === "" ? location.pathname + location.search : fragment);
     }
@@ -39,8 +51,7 @@ export async function openAddress(store: Store): Promise<void> {
 async function read(store: Store, fragment: string): Promise<void> {
   const text = await unpack(fragment).catch(() => null);
   const source = text === null ? { text: startText, records: [] } : await withRecords(store, text);
-  store.restart();
-  store.setSource(source);
+  store.open(source);
   if (text === null) {
     store.failLater(texts.page.scene.broken);
   }

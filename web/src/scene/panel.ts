@@ -2,6 +2,7 @@
 import { button, debounce, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
+import { fitsAddress } from "./open";
 import { downloadPng } from "./png";
 
 const TYPING_MS = 400;
@@ -33,8 +34,7 @@ export function scenePanel(store: Store): HTMLElement {
   const paste = () =>
     navigator.clipboard.readText().then(
       (pasted) => {
-        store.restart();
-        store.setSource({ text: pasted, records: store.source.records });
+        store.open({ text: pasted, records: store.source.records });
       },
       () => store.fail(words.pasteFailed),
     );
@@ -47,14 +47,16 @@ export function scenePanel(store: Store): HTMLElement {
       { className: "buttons" },
       button(words.copy, () => void copy(() => store.source.text)),
       button(words.paste, () => void paste()),
-      button(
-        words.link,
-        () =>
+      button(words.link, () => {
+        if (fitsAddress()) {
           void copy(
             () => location.href,
             () => linkNote(store),
-          ),
-      ),
+          );
+        } else {
+          say(said, words.tooLong);
+        }
+      }),
       said,
     ),
   );
@@ -66,9 +68,6 @@ export function scenePanel(store: Store): HTMLElement {
 /** What is said after a link was copied: it cannot carry records of the user. */
 function linkNote(store: Store): string {
   const words = texts.page.scene;
-  if (!location.hash.startsWith("#s=") && location.hash !== "") {
-    return words.tooLong;
-  }
   return store.source.records.length > 0 ? `${words.copied}. ${words.linkRecords}` : words.copied;
 }
 
@@ -81,7 +80,7 @@ function downloads(store: Store): HTMLElement {
     el(
       "div",
       { className: "buttons" },
-      button(words.toml, () => download(words.toml, store.source.text, "application/toml")),
+      button(words.toml, () => download(words.toml, store.played.text, "application/toml")),
       button(words.csv, () => store.run && download(words.csv, store.run.csv, "text/csv")),
       button(words.svg, () => store.run && download(words.svg, store.run.svg, "image/svg+xml")),
       button(words.png, () => store.run && downloadPng(store, words.png, store.run.svg)),
