@@ -180,8 +180,7 @@ def run_of(native: dict[str, Any], scene: Scene) -> Run:
     """A run as it comes from the native module."""
     summary = json.loads(native["summary"])
     t, y, engaged = native["t"], native["y"], native["engaged"]
-    # Where the clutch has switched, the sample before it has the same time.
-    switches = np.flatnonzero((engaged[1:] != engaged[:-1]) & (t[1:] == t[:-1])) + 1
+    switches = np.flatnonzero(engaged[1:] != engaged[:-1]) + 1
     impacts = native["impacts_s"]
     after = np.searchsorted(t, impacts, side="right") - 1
     error = summary.get("error_estimate")

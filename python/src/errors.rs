@@ -146,8 +146,8 @@ impl Raise for MapError {
 impl Raise for CellError {
     fn raise(self) -> PyErr {
         match self {
-            CellError::Scene(error) => error.raise(),
-            CellError::Ground(error) => error.raise(),
+            CellError::Scene { error, .. } => (*error).raise(),
+            CellError::Ground { error, .. } => (*error).raise(),
             CellError::Interrupted => PyKeyboardInterrupt::new_err(()),
             CellError::Run { .. } | CellError::Block { .. } => failed(self),
         }

@@ -1,6 +1,7 @@
 //! Demand models and fragilities of anybody's runs.
 
 use numpy::{IntoPyArray as _, PyArray1};
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_studies::statistics::{
@@ -220,7 +221,8 @@ impl Fragility {
     ) -> PyResult<Bound<'py, PyDict>> {
         let bootstrap = Bootstrap { resamples, seed, level: confidence(level)? };
         let (intensities, pool) = (intensities(intensity)?, self::threads(threads)?);
-        let bands = long_call(py, |_| pool.install(|| fragility_bands(&self.observations, &intensities, bootstrap)))?;
+        let bands =
+            long_call(py, |interrupt| pool.install(|| fragility_bands(&self.observations, &intensities, bootstrap, interrupt)))?;
         let bands = bands.map_err(|error| error.raise())?;
         let dict = PyDict::new(py);
         let column = |pick: fn(&Band) -> f64| bands.curve.iter().map(|at| pick(&at.band)).collect::<Vec<_>>().into_pyarray(py);
@@ -361,6 +363,7 @@ impl Raise for BootstrapError {
             BootstrapError::Intensity { index, value } => range(&format!("intensity.{index}"), value, "above 0 and finite"),
             BootstrapError::Observation(error) => error.raise(),
             BootstrapError::Resample { .. } => failed(self),
+            BootstrapError::Interrupted => PyKeyboardInterrupt::new_err(()),
         }
     }
 }

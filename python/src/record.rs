@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use sprag_shared::math::fnv::Fnv;
 use sprag_sim::record::intensity::{cumulative_absolute_velocity_m_s, uniform_duration_s};
-use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, Units};
+use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, StatedStep, Units};
 
 use crate::errors::{Raise as _, input, range};
 use crate::long_call::long_call;
@@ -243,6 +243,7 @@ impl Record {
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {
         let (py, this) = (slf.py(), slf.get());
+        let Header { title, samples, peak_m_s2, time_step } = &this.record.header;
         let state = (
             this.record.name.clone(),
             this.acceleration_m_s2(py)?,
@@ -252,6 +253,7 @@ impl Record {
             this.record.component.clone(),
             this.format.clone(),
             this.warnings.clone(),
+            (title.clone(), *samples, *peak_m_s2, time_step.map(|step| (step.value_s, step.resolution_s))),
         );
         Ok((slf.get_type().getattr("_restored")?, state))
     }
@@ -268,14 +270,20 @@ impl Record {
         component: Option<String>,
         format: String,
         warnings: Vec<String>,
+        header: PickledHeader,
     ) -> PyResult<Record> {
+        let (title, stated_samples, peak_m_s2, step) = header;
+        let time_step = step.map(|(value_s, resolution_s)| StatedStep { value_s, resolution_s });
+        let header = Header { title, samples: stated_samples, peak_m_s2, time_step };
         let samples = samples.as_array().to_vec();
         let read =
             SimRecord::of_samples(&name, time_step_s, Units::MetrePerSecondSquared, samples).map_err(|error| error.raise())?;
-        let record = SimRecord { start_time_s, units: units_of(units)?, component, header: Header::default(), ..read };
+        let record = SimRecord { start_time_s, units: units_of(units)?, component, header, ..read };
         Ok(Record { format, warnings, ..Record::of(record) })
     }
 }
 
 /// The state of a pickled record.
-type Pickled<'py> = (String, Bound<'py, PyArray1<f64>>, f64, f64, String, Option<String>, String, Vec<String>);
+type Pickled<'py> = (String, Bound<'py, PyArray1<f64>>, f64, f64, String, Option<String>, String, Vec<String>, PickledHeader);
+/// Title, number of samples, peak, and time step with its resolution, as the file states them.
+type PickledHeader = (String, Option<u64>, Option<f64>, Option<(f64, f64)>);

@@ -46,6 +46,8 @@ def test_records_compare_hash_and_pickle(scenes: Path, of) -> None:
     assert copy == record
     assert hash(copy) == hash(record)
     assert (copy.format, copy.warnings, copy.units) == (record.format, record.warnings, record.units)
+    # What the file says of itself: studies take the earthquake from it.
+    assert copy.__reduce__()[1][-1] == record.__reduce__()[1][-1]
     assert copy != sprag.Record([0, 2, 0], time_step_s=0.1)
 
 

@@ -61,6 +61,16 @@ def test_a_slender_block_falls_back_when_the_cosine_says_so() -> None:
     assert len(run.y_events[0]) == len(run.t_events[0])
 
 
+@pytest.mark.parametrize("events", ["located", "step-end"])
+def test_switches_are_events_wherever_they_take_place(events: str) -> None:
+    block = sprag.Block(size_m=2.0, slenderness_deg=10.0)
+    ground = sprag.Sine(amplitude_g=0.4, frequency_hz=1.0)
+    scene = sprag.Scene(block=block, device=sprag.ClutchedPair(mass_ratio=0.5), ground=ground, output=sprag.Output(interval_s=0.001))
+    method = sprag.Accuracy(method="runge-kutta-4", step_s=0.001, events=events)
+    (run,) = sprag.simulate(scene.set("accuracy", method))
+    assert len(run.t_events[1]) == len(run.y_events[1]) == run.summary["clutch_switches"] > 10
+
+
 def test_arrays_are_handed_over_and_not_copied() -> None:
     (run,) = sprag.simulate(sprag.Scene(block=sprag.Block(size_m=1.0, slenderness_deg=10.0, initial_rotation_ratio=0.5)))
     assert not run.t.flags.owndata

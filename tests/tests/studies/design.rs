@@ -115,6 +115,17 @@ fn the_clutch_slips_before_a_tooth_breaks_and_holds_what_is_asked() {
     assert!(chosen.needed.unwrap() >= built.support_n.as_ref().unwrap().value);
 }
 
+/// A clutch of the scene's own limits the force, and that of the list slips later: its support bears it.
+#[test]
+fn the_support_is_no_weaker_than_the_clutch() {
+    let plates = "kind = 'clutched-pair'\nmass_ratio = 0.5\nclutch = { capacity_ratio = 0.05 }\n\
+                  flywheel = { brake_deceleration_m_s2 = 'instant' }\n";
+    let list = list(&scene(plates, &[]), Basis::default());
+    let slip = item(&list, "clutch, each", "torque").chosen.unwrap() / list.pinion.radius_m;
+    let support = item(&list, "support", "force");
+    assert!(support.chosen.unwrap() >= slip && support.needed.unwrap() < slip, "{slip} {support:?}");
+}
+
 #[test]
 fn the_delay_allowed_keeps_the_tolerance_and_the_next_does_not() {
     let list = list(&scene(PAIR, &[]), Basis::default());

@@ -157,8 +157,10 @@ fn rivals_are_compared_motion_by_motion() {
             let paired = rival.overturning;
             assert_eq!((paired.pairs, paired.groups_above, paired.groups_below), (12, saved, lost));
             assert!((paired.difference - (saved as f64 - lost as f64) / 12.0).abs() < 1e-12);
-            assert!(paired.band.low <= paired.difference && paired.difference <= paired.band.high);
-            assert!(!rival.sure || paired.chance <= 0.05 && paired.band.low > 0.0);
+            assert_eq!(rival.alike, (saved, lost) == (0, 0));
+            let band = paired.band.unwrap();
+            assert!(band.low <= paired.difference && paired.difference <= band.high);
+            assert!(!rival.sure || paired.chance <= 0.05 && band.low > 0.0);
             let rotation = rival.log_rotation.unwrap();
             assert!(rotation.pairs <= pairs.iter().filter(|pair| **pair == (false, false)).count());
         }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use sprag_sim::interrupt::Interrupt;
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::study::Study;
+use sprag_studies::optimise::choice_page::{choice_page, choice_picture, delay_picture};
 use sprag_studies::optimise::findings::Findings;
 use sprag_studies::optimise::problem::{Choices, Problem, Solution};
 use sprag_tests::pulse_records::sine_pulses;
@@ -154,6 +155,95 @@ fn a_delay_budget_ends_where_the_advantage_does() {
         if let (Some(kept), Some(lost)) = (kept, budget.lost_at_s) {
             assert!(kept < lost && lost - kept < 0.2, "bisected: {kept} {lost}");
         }
+    });
+}
+
+/// What `then` makes of the answer to ideal laws under a sine of ω_g/p = 2 and these amplitudes over the uplift threshold.
+fn under_sines<R>(amplitudes: &str, keys: &str, then: impl FnOnce(&Problem<'_>, &Findings) -> R) -> R {
+    let sine = format!("[[optimise.pulse]]\nmotion = 'sine'\nfrequency_ratio = [2.0]\namplitude_ratio = {amplitudes}");
+    answered(&study("", &format!("{keys}{sine}"), None), |problem, _, findings| then(problem, findings))
+}
+
+#[test]
+fn notes_say_by_what_the_choice_was_made() {
+    let note = |findings: &Findings, text: &str| findings.notes.iter().any(|note| note.contains(text));
+    under_sines("[0.5]", "", |_, findings| {
+        assert!(note(findings, "No motion rocks the bare block: nothing to choose by."), "{:?}", findings.notes);
+        assert!(!note(findings, "by peak rotation"), "{:?}", findings.notes);
+    });
+    // Every device loses the block, and has no rotation to compare.
+    under_sines("[20.0, 30.0]", "", |_, findings| {
+        let best = findings.best.as_ref().unwrap();
+        assert!(findings.rows.iter().all(|row| row.overturned == 2 && row.peak_force_ratio >= best.peak_force_ratio));
+        assert!(note(findings, "overturn under 2 of 2 motions: the choice among them is by force."), "{:?}", findings.notes);
+    });
+    let robust = "robust = { samples = 3, restitution = 0.1, quantile = 1.0 }\n";
+    under_sines("[2.0, 3.0, 4.0, 20.0]", robust, |problem, findings| {
+        let best = findings.best.as_ref().unwrap();
+        let alike = findings.rows.iter().filter(|row| row.score.objective == best.score.objective).count();
+        let text = format!(
+            "{alike} of the {} devices tried respect the limits and overturn under as many motions by the",
+            findings.designs
+        );
+        assert!(alike > 1 && note(findings, &text), "{:?}", findings.notes);
+        let page = choice_page(problem, findings).unwrap();
+        assert!(page.contains("none overturns under fewer by the 100 % quantile over the specimens."), "{page}");
+    });
+}
+
+/// A block that never stands has no stroke, and not one of 0.
+#[test]
+fn what_no_motion_shows_has_no_number() {
+    let row = |page: &str, name: &str| -> String {
+        page.lines().find(|line| line.contains(name)).unwrap().split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let keys = "largest_stroke_m = 0.1\nlargest_force_ratio = 9.0\n";
+    under_sines("[20.0, 30.0]", keys, |problem, findings| {
+        let page = choice_page(problem, findings).unwrap();
+        assert!(row(&page, "stroke of the terminals").ends_with("| - | 0.1 | - |"), "{page}");
+        assert!(!row(&page, "force on the support").ends_with("| - | 9 | - |"), "{page}");
+    });
+    under_sines("[20.0, 30.0]", &format!("{keys}force_of_overturned = false\n"), |problem, findings| {
+        let page = choice_page(problem, findings).unwrap();
+        assert!(row(&page, "force on the support").ends_with("| - | 9 | - |"), "{page}");
+    });
+}
+
+/// Two amplitudes are two groups, one is none to draw from.
+#[test]
+fn one_group_of_motions_has_no_band() {
+    under_sines("[2.0]", "laws = ['clutched-pair', 'rigid']\ndelays_s = [0.01]\n", |problem, findings| {
+        let ranking = findings.ranking.as_ref().unwrap();
+        assert_eq!((ranking.groups, &ranking.chosen_again[..], ranking.probability_left_out), (1, &[][..], None));
+        assert!(ranking.rivals.iter().all(|rival| rival.overturning.band.is_none() && !rival.sure));
+        let page = choice_page(problem, findings).unwrap();
+        assert!(!page.contains("Chosen again") && page.contains("independent group of motions does not give"), "{page}");
+        assert_eq!(choice_picture(problem, findings), Ok(None));
+        assert!(delay_picture(problem, findings).unwrap().is_some());
+    });
+    under_sines("[2.0, 2.5]", "", |problem, findings| {
+        let ranking = findings.ranking.as_ref().unwrap();
+        assert!(!ranking.chosen_again.is_empty() && ranking.rivals.iter().all(|rival| rival.overturning.band.is_some()));
+        assert!(choice_picture(problem, findings).unwrap().is_some());
+    });
+}
+
+/// A device that has to catch a faster block asks for more: later clutches reach the limit while they still save motions.
+#[test]
+fn a_delay_budget_ends_where_a_limit_is_reached() {
+    let keys = "laws = ['rigid']\nlargest_force_ratio = 0.4\ndelays_s = [0.05, 0.2]\n[[optimise.pulse]]\nmotion = 'sine'\n\
+                frequency_ratio = [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]\namplitude_ratio = [1.5, 2.0, 3.0, 4.0]";
+    answered(&study("", keys, None), |_, solution, findings| {
+        let budget = findings.delay_budget.as_ref().unwrap();
+        let force = |delay: f64| {
+            let late = solution.late.iter().find(|design| design.candidate.unwrap().delay_s == delay);
+            late.unwrap().responses.iter().map(|response| response.as_ref().unwrap().force_ratio).fold(0.0, f64::max)
+        };
+        assert!(budget.late.iter().all(|late| late.better), "{:?}", budget.late);
+        let (kept, lost) = (budget.largest_delay_s.unwrap(), budget.lost_at_s.unwrap());
+        assert!(0.05 <= kept && kept < lost && lost - kept < 0.2 / 16.0, "bisected: {kept} {lost}");
+        assert!(force(kept) <= 0.4 && force(lost) > 0.4, "{} {}", force(kept), force(lost));
+        assert!(budget.words().ends_with(&format!("later, beyond the limits at {lost:.4} s")), "{}", budget.words());
     });
 }
 

@@ -11,7 +11,6 @@ use sprag_report::long_run::shard::Shard;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_sim::map::boundaries::{Boundaries, EVALUATIONS};
-use sprag_sim::map::cell::CellError;
 use sprag_sim::map::grid::Grid;
 use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::ground::GroundTable;
@@ -152,8 +151,8 @@ impl Run for MapArguments {
         report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
         report.rows(&path, &columns)?;
         if report.draws() {
-            for (name, picture) in figures(&grid, &tally)? {
-                report.picture(name, Ok(picture))?;
+            for (name, picture) in figures(&grid, &tally) {
+                report.picture(name, picture)?;
             }
         }
         report.print(outcome_table(&tally.maps));
@@ -188,7 +187,7 @@ impl Divided for MapArguments {
 }
 
 /// The records of the first cell, by the names that `file` has for them.
-fn records(grid: &Grid, file: &SceneFile) -> Result<Vec<RecordSummary>, CellError> {
+fn records(grid: &Grid, file: &SceneFile) -> anyhow::Result<Vec<RecordSummary>> {
     let mut first = grid.scene_of(0, 0)?;
     let as_written = |tables: &mut [GroundTable], written: &[GroundTable]| {
         for (table, written) in tables.iter_mut().zip(written) {

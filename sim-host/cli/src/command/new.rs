@@ -60,7 +60,11 @@ fn text(kind: Kind) -> String {
 
 impl Run for NewArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        write(self)?.iter().for_each(|path| context.print(format_args!("{}\n", path.display())));
+        if self.file.as_deref() == Some(Path::new("-")) {
+            context.print(text(self.kind));
+        } else {
+            write(self)?.iter().for_each(|path| context.print(format_args!("{}\n", path.display())));
+        }
         Ok(Completion::Complete)
     }
 }

@@ -16,7 +16,7 @@ pub struct ReadMotions {
 }
 
 impl ReadMotions {
-    /// The own motion of `scene`, and each of `records` in its place; what else was `unreadable` is among the errors.
+    /// The own motion of `scene`, and each of `records` in its place once; what else was `unreadable` is among the errors.
     ///
     /// # Errors
     /// A scene that has no record to replace, or none of its own without any of `records`, one whose `[[vertical]]` does not belong to them, and
@@ -31,9 +31,12 @@ impl ReadMotions {
         require_files(scene, records)?;
         let reading = Progress::uncounted("reading records");
         let mut read = ReadMotions { motions: StudyMotion::own(scene)?.into_iter().collect(), errors: unreadable.to_vec() };
-        for record in records {
+        for (name, record) in RecordFiles::named(records) {
             match StudyMotion::record(scene, record) {
-                Ok(motion) => read.motions.push(motion),
+                Ok(mut motion) => {
+                    motion.name = name;
+                    read.motions.push(motion);
+                }
                 Err(error @ GroundError::Record { .. }) => read.errors.push(error.to_string()),
                 Err(error) => return Err(error.into()),
             }

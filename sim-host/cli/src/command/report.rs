@@ -152,13 +152,22 @@ impl Report {
         self.formats.svg || self.formats.png
     }
 
-    /// Writes a picture; gives the file to look at first, if any.
+    /// Writes a picture; gives the file to look at first, if any. One that cannot be drawn is left out, and a line says so: the results are
+    /// worth more.
     ///
     /// # Errors
-    /// A picture that cannot be drawn, and [`OutputError`].
+    /// [`OutputError`].
     pub fn picture(&mut self, name: &str, svg: Result<String, PlotError>) -> anyhow::Result<Option<PathBuf>> {
-        let svg = svg.map_err(|error| anyhow::anyhow!("the picture cannot be drawn: {error}"))?;
-        Ok(self.results.add_picture(&self.folder, name, &svg, self.formats)?)
+        match svg {
+            Ok(svg) => Ok(self.results.add_picture(&self.folder, name, &svg, self.formats)?),
+            Err(error) => {
+                ["svg", "png"].into_iter().for_each(|ending| self.remove(&format!("{name}.{ending}")));
+                if self.draws() {
+                    self.note(format_args!("{name}: no picture: {error}"));
+                }
+                Ok(None)
+            }
+        }
     }
 
     /// Prints a line, or text that ends with a line break of its own.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::{SCENES, refused, scene};
+use super::{SCENES, refused, said, scene, sprag};
 
 #[test]
 fn bad_scenes_cost_one_line() {
@@ -36,6 +36,26 @@ fn bad_scenes_cost_one_line() {
     refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["UTF-8"]);
     fs::File::create(&empty).unwrap().set_len(2 << 30).unwrap();
     refused(&["simulate", empty.to_str().unwrap(), "--out", to], &out, &["too large"]);
+}
+
+/// What the block of a cell cannot be is said with its place on the map, and what a controller believes with the key of the belief.
+#[test]
+fn an_error_within_a_map_or_a_loop_names_its_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let to = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let vertical =
+        ["vertical.0.motion=sine", "vertical.0.frequency_hz=1", "vertical.0.amplitude_g=0.5"].map(|key| ["--set", key]);
+    let (map, out) = (scene("figure08"), to("map"));
+    let mut arguments = vec!["map", &map, "--cut", "--out", &out, "--x", "vertical.0.amplitude_g=0.5:1.5:3"];
+    arguments.extend(vertical.iter().flatten());
+    let output = sprag(&arguments);
+    assert_eq!(output.status.code(), Some(2));
+    let message = said(&output);
+    assert!(message.contains("vertical.0.amplitude_g=1: ") && message.contains("the ground would fall away"), "{message}");
+    let (controller, out) = (scene("controller"), folder.path().join("loop"));
+    let belief = ["--set", "block.slenderness_deg=80", "--set", "controller.belief.slenderness_factor=1.2"];
+    let arguments = [&["loop", &controller, "--out", out.to_str().unwrap()][..], &belief[..]].concat();
+    refused(&arguments, &out, &["controller.belief.slenderness_factor is 1.2, but must be"]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use super::{refused, scene, sprag};
+use super::{refused, said, scene, sprag};
 
 #[test]
 fn simulate_writes_its_three_files_and_a_summary() {
@@ -29,6 +29,54 @@ fn simulate_writes_its_three_files_and_a_summary() {
             assert!(run.get(key).is_some(), "{key} in {run}");
         }
     }
+}
+
+/// A block that has overturned when its run begins, and a run that ends at once.
+#[test]
+fn a_run_without_time_keeps_its_results_without_a_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    let block = "[block]\nsize_m = 2.0\nslenderness_deg = 10.0\ngeometry = \"slender\"\ninitial_rotation_ratio = ";
+    for (name, text, outcome) in [
+        ("fallen", "1.2\n[[device]]\nkind = \"none\"\n", "overturned-without-impact"),
+        ("short", "0.5\n[[device]]\nkind = \"none\"\n[run]\nfree_time_s = 0\n", "safe"),
+    ] {
+        fs::write(&file, format!("{block}{text}")).unwrap();
+        let out = folder.path().join(name);
+        let output = sprag(&["simulate", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        assert_eq!(said(&output), "sprag: history: no picture: the responses span no time, so there is no time axis to draw\n");
+        assert!(output.status.success());
+        let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        assert_eq!(summary["runs"][0]["outcome"], outcome, "{name}");
+        assert!(out.join("history.csv").exists() && !out.join("history.svg").exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_new_file_on_standard_output_is_the_file_alone() {
+    let output = sprag(&["new", "scene", "-"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    sprag_sim::scene::Scene::parse(&text, "scene.toml").unwrap();
+    assert!(text.starts_with("#:schema") && output.status.success());
+    assert!(!std::path::Path::new("scene.schema.json").exists());
+}
+
+#[test]
+fn keys_of_whole_numbers_may_be_axes() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let output = sprag(&[
+        "map",
+        &scene("figure08"),
+        "--cut",
+        "--set",
+        "block.restitution_scatter=0.1",
+        "--x",
+        "block.restitution_seed=1:4:4",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert!(output.status.success(), "{}", said(&output));
 }
 
 #[test]

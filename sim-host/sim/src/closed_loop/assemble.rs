@@ -131,13 +131,17 @@ impl<'a> LoopTask<'a> {
     pub fn believed(&self) -> Result<Structure, ParameterError> {
         let (mut structure, belief) = (self.structure().loaded()?, &self.controller.belief);
         let block = &structure.block;
-        structure.block = Block::new(
-            block.size() * belief.size_factor,
-            block.slenderness() * belief.slenderness_factor,
-            block.inertia_ratio(),
+        let (size, slenderness) = (belief.size_factor, belief.slenderness_factor);
+        let range = "such that the block which the controller believes in is one";
+        let of = |parameter, value| ParameterError { parameter, value, range };
+        structure.block = Block::new(block.size() * size, block.slenderness() * slenderness, block.inertia_ratio()).map_err(
+            |error| match error.parameter {
+                "size" => of("controller.belief.size_factor", size),
+                _ => of("controller.belief.slenderness_factor", slenderness),
+            },
         )?;
         structure.device.mass_ratio *= belief.mass_ratio_factor;
-        let restitution = structure.restitution()?;
+        let restitution = structure.restitution().map_err(|_| of("controller.belief.slenderness_factor", slenderness))?;
         structure.restitution = Restitution::Constant((restitution * belief.restitution_factor).min(1.0));
         Ok(structure)
     }

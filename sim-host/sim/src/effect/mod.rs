@@ -80,6 +80,7 @@ impl Effect {
                 several => format!("{several} [[vertical]] tables, summed"),
             },
             ("checks", set) if set.is_empty() => "[checks]".to_owned(),
+            ("kinematics", set) if set.is_empty() => format!("device.{index} has flywheels with a speed of their own"),
             (_, set) => set,
         })
     }

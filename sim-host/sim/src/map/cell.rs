@@ -22,12 +22,22 @@ use crate::simulation::{DeviceRun, RunError, simulate_for_study};
 /// Reasons why a block of a map could not be followed.
 #[derive(Debug, thiserror::Error)]
 pub enum CellError {
-    /// The scene, or that of a cell.
-    #[error("{0}")]
-    Scene(#[from] SceneError),
+    /// The scene of a cell.
+    #[error("{place}: {error}")]
+    Scene {
+        /// Values of the axes.
+        place: String,
+        /// What is wrong.
+        error: Box<SceneError>,
+    },
     /// The ground motion of a cell.
-    #[error("{0}")]
-    Ground(#[from] GroundError),
+    #[error("{place}: {error}")]
+    Ground {
+        /// Values of the axes.
+        place: String,
+        /// What is wrong.
+        error: Box<GroundError>,
+    },
     /// A scene that cannot be simulated.
     #[error("{place}: {error}")]
     Run {
@@ -76,17 +86,18 @@ pub fn results_by<E: Display>(
     let (mut pulsed, mut pulsed_places) = (Vec::with_capacity(places.len()), Vec::with_capacity(places.len()));
     let mut shaken = Vec::new();
     for (index, &values) in places.iter().enumerate() {
-        match grid.subject(device, values)? {
+        let place = || grid.place(values);
+        match grid.subject(device, values).map_err(|error| CellError::Scene { place: place(), error: Box::new(error) })? {
             Subject::Pulsed(block) => {
                 pulsed.push(block);
                 pulsed_places.push(index);
             }
             Subject::Scene(scene) => {
                 let scene = scene.only(of.device);
-                let ground = if grid.shaking(&scene).is_none() { Some(scene.ground_motions()?) } else { None };
+                let ground = if grid.shaking(&scene).is_none() { Some(ground_of(&scene, place)?) } else { None };
                 shaken.push((side_by_side::Subject::new(scene), ground, index));
             }
-            Subject::Loop(scene, law) => results[index] = looped(&scene, law, || grid.place(values), interrupt)?,
+            Subject::Loop(scene, law) => results[index] = looped(&scene, law, place, interrupt)?,
         }
     }
     let name = &of.name;
@@ -106,15 +117,21 @@ pub fn results_by<E: Display>(
         results[*index] = match found {
             Some(found) => PulseResult::of_shaken(&found.motion, &subject.scene.block),
             None => {
+                let place = || grid.place(places[*index]);
                 let ground = match ground {
                     Some(ground) => Cow::Borrowed(ground),
-                    None => Cow::Owned(subject.scene.ground_motions()?),
+                    None => Cow::Owned(ground_of(&subject.scene, place)?),
                 };
-                simulated(&subject.scene, &ground, || grid.place(places[*index]), interrupt)?
+                simulated(&subject.scene, &ground, place, interrupt)?
             }
         };
     }
     Ok(results)
+}
+
+/// The ground motion of `scene`, at `place` on the map.
+fn ground_of(scene: &Scene, place: impl Fn() -> String) -> Result<GroundMotions, CellError> {
+    scene.ground_motions().map_err(|error| CellError::Ground { place: place(), error: Box::new(error) })
 }
 
 /// A block simulated as the scene that it is, which has one device; `place` says where it is on the map.
@@ -140,7 +157,7 @@ fn simulated(
 /// A closed loop by `law` over a scene that has one device, as `sprag loop` closes it; nobody looks for the peak acceleration.
 #[cfg(feature = "effects")]
 fn looped(scene: &Scene, law: LawName, place: impl Fn() -> String, interrupt: &Interrupt) -> Result<PulseResult, CellError> {
-    let mut desk = LoopScene::new(scene.clone())?;
+    let mut desk = LoopScene::new(scene.clone()).map_err(|error| CellError::Ground { place: place(), error: Box::new(error) })?;
     desk.controller.law = law;
     let task = desk.task(0, desk.controller.sensors.seed(), interrupt);
     let (.., looped) = task.answered::<()>().map_err(|failure| match failure {

@@ -198,9 +198,12 @@ impl Grid {
         self.settings(values).join(", ")
     }
 
-    /// KEY=VALUE of both axes; values read back to the same f64.
+    /// KEY=VALUE of both axes; values read back to the same f64, whole ones as keys of whole numbers take them too.
     pub fn settings(&self, (x, y): Values) -> Vec<String> {
-        let setting = |axis: &AxisTable, value: f64| format!("{}={value:?}", axis.key);
+        let setting = |axis: &AxisTable, value: f64| {
+            let text = format!("{value:?}");
+            format!("{}={}", axis.key, text.strip_suffix(".0").unwrap_or(&text))
+        };
         let mut settings = vec![setting(&self.map.x, x)];
         settings.extend(self.map.y.iter().zip(y).map(|(axis, value)| setting(axis, value)));
         settings

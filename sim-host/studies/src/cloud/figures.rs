@@ -13,6 +13,9 @@ use super::study::Study;
 /// Intensities at which the band of a power law is drawn.
 const BAND_POINTS: u32 = 60;
 
+/// What no axis can show: few points at a high level have a band that ends beyond all numbers.
+const LARGEST_DRAWN: f64 = 1e100;
+
 /// The study's title, and below it what its blocks have in common.
 fn title(study: &Study) -> FigureTitle {
     let scenes: Vec<_> = study.structures.iter().map(|structure| &structure.scene).collect();
@@ -62,9 +65,13 @@ fn demand_series(study: &Study, model: &DemandModel) -> CloudSeries {
     let [ln_low, ln_high] = [low, high].map(math::ln);
     for k in 0..=BAND_POINTS {
         let intensity = math::exp(ln_low + (ln_high - ln_low) * f64::from(k) / f64::from(BAND_POINTS));
-        let band = law.median_band(intensity, study.bootstrap.level);
-        series.line.push((intensity, law.median(intensity)));
-        series.band.push(BandPoint { at: intensity, low: band.low, high: band.high });
+        let (median, band) = (law.median(intensity), law.median_band(intensity, study.bootstrap.level));
+        if median < LARGEST_DRAWN {
+            series.line.push((intensity, median));
+        }
+        if band.high < LARGEST_DRAWN {
+            series.band.push(BandPoint { at: intensity, low: band.low, high: band.high });
+        }
     }
     series
 }
@@ -125,4 +132,51 @@ fn fragility_series(found: &DeviceFragility) -> CloudSeries {
         }
     }
     series
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::cloud::measure::Measure;
+    use crate::statistics::{DemandPoint, PowerLaw};
+
+    /// Three points have one degree of freedom, and at this level a band that overflows.
+    #[test]
+    fn a_band_beyond_all_numbers_is_left_out_of_the_picture() {
+        let text = "records = ['a.csv']\n[bootstrap]\nlevel = 0.999";
+        let study = Study::parse(text, "study.toml", Path::new(""), &[], &[]).unwrap();
+        let points = [(1.0, 1.0), (1.1, 9.0), (3.0, 2.0)].map(|(intensity, demand)| DemandPoint { intensity, demand }).to_vec();
+        let law = PowerLaw::fit(&points).unwrap();
+        assert_eq!(law.median_band(3.0, study.bootstrap.level).high, f64::INFINITY);
+        let model = DemandModel {
+            structure_index: 0,
+            structure: String::new(),
+            device_index: 0,
+            device: String::new(),
+            demand: Demand::PeakRotation,
+            measure: Measure::Pgv,
+            runs: 3,
+            left_out: crate::cloud::demand::LeftOut::default(),
+            law: Some(law),
+            reason: None,
+            intensity_range: Some([1.0, 3.0]),
+            points,
+        };
+        let series = demand_series(&study, &model);
+        assert_eq!((series.points.len(), series.line.len()), (3, 61));
+        assert!(series.band.iter().all(|point| point.high < LARGEST_DRAWN) && series.band.len() < 61);
+        cloud_figure(&CloudFigure {
+            title: title(&study),
+            devices: study.devices.clone(),
+            x_title: String::new(),
+            scales: (Scale::Logarithmic, Scale::Logarithmic),
+            columns: 1,
+            band: String::new(),
+            marks: String::new(),
+            panels: vec![CloudPanel { series: vec![series], ..CloudPanel::default() }],
+        })
+        .unwrap();
+    }
 }

@@ -11,6 +11,9 @@ use sprag_sim::scene::Scene;
 /// Largest factor by which a record is scaled.
 pub const LARGEST_FACTOR: f64 = 1000.0;
 
+/// How far a record may be from a level that it is scaled to, relative.
+const SAME_LEVEL: f64 = 1e-6;
+
 /// What makes a measure dimensionless: the frequency parameter and the uplift threshold of the bare block.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct BlockScales {
@@ -177,13 +180,16 @@ impl Measure {
     }
 
     /// The factor at which `motion` has the `level` (> 0) of this measure; `None` where no factor up to [`LARGEST_FACTOR`]
-    /// gives it.
+    /// gives it, as of p t_uni at a level that the record jumps over.
     pub fn factor(self, motion: &MeasuredRecord, level: f64, block: BlockScales) -> Option<f64> {
         let factor = match self.growth() {
             Growth::None => return None,
             Growth::Linear => level / self.of(motion, 1.0, block),
             Growth::Square => math::square_root(level / self.of(motion, 1.0, block)),
-            Growth::OfTheRecord => self.bisected(motion, level, block)?,
+            Growth::OfTheRecord => {
+                let has = |factor: &f64| (self.of(motion, *factor, block) / level - 1.0).abs() < SAME_LEVEL;
+                self.bisected(motion, level, block).filter(has)?
+            }
         };
         (factor > 0.0 && factor <= LARGEST_FACTOR).then_some(factor)
     }
@@ -296,6 +302,11 @@ mod tests {
         // Longer than the motion itself, more than the largest factor, and of a motion that has none.
         assert_eq!(Measure::UniformDuration.factor(&motion, 2.0 * 2.01, BLOCK), None);
         assert_eq!(Measure::Pga.factor(&motion, 1e5, BLOCK), None);
+        // A rectangle of 1 s exceeds the threshold for all of that time or not at all, but for its edges of a sample.
+        let rectangle = self::motion((0..=3000).map(|k| if (1000..2000).contains(&k) { 2.0 } else { 0.0 }));
+        let of = |level: f64| Measure::UniformDuration.factor(&rectangle, level, BLOCK);
+        assert_eq!([0.5, 1.0, 1.5].map(of), [None; 3]);
+        assert!(of(2.0).is_some());
         let quiet = self::motion([0.0; 10].into_iter());
         assert!(Measure::ALL.iter().all(|measure| measure.of(&quiet, 1.0, BLOCK) == 0.0));
         assert!(Measure::ALL.iter().all(|measure| measure.factor(&quiet, 1.0, BLOCK).is_none()));

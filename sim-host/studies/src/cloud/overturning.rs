@@ -1,6 +1,7 @@
 //! Fragilities: the probability of overturning of each structure and device.
 
 use serde::Serialize;
+use sprag_sim::interrupt::Interrupt;
 
 use super::measure::Measure;
 use super::runs::Run;
@@ -111,7 +112,7 @@ impl DeviceFragility {
         })?;
         let intensities: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
         let bands = match fragility {
-            Fragility::Estimated(_) => Some(fragility_bands(&observations, &intensities, bootstrap).map_err(|error| {
+            Fragility::Estimated(_) => Some(fragility_bands(&observations, &intensities, bootstrap, &Interrupt::default()).map_err(|error| {
                 let (structure, device) = names();
                 OverturningError::Bands { structure, device, error: Box::new(error) }
             })?),

@@ -1,6 +1,6 @@
 //! The records of a study: files named one by one, and those of folders.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use rayon::prelude::*;
@@ -54,16 +54,44 @@ pub struct StudyRecords {
     pub passed_over: Vec<String>,
 }
 
+/// How much a study says of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Described {
+    /// Nothing.
+    Bare,
+    /// What its folder's entry says.
+    OfFolder,
+    /// What its own entry says.
+    Alone,
+}
+
 /// A file to be read.
 struct Source {
     name: String,
     path: PathBuf,
+    /// Its path without links.
+    file: PathBuf,
     options: ReadOptions,
     event: Option<String>,
+    described: Described,
+}
+
+impl Source {
+    /// Its name, which none of the other `sources` has.
+    fn name_among(&self, sources: &[Source]) -> String {
+        let others = |of: fn(&Source, &Source) -> bool| sources.iter().any(|other| !std::ptr::eq(self, other) && of(self, other));
+        let called_so = others(|one, other| one.name == other.name && one.file != other.file);
+        let name = if called_so { folder::shown(&self.path) } else { self.name.clone() };
+        match &self.options.component {
+            Some(component) if others(|one, other| one.file == other.file) => format!("{name}, {component}"),
+            _ => name,
+        }
+    }
 }
 
 impl StudyRecords {
-    /// Reads the records of `study`, on rayon's threads. A file that is named twice counts once.
+    /// Reads the records of `study`, on rayon's threads. A file, or a component of it, that is named twice counts once, as the entry says
+    /// that describes it.
     ///
     /// # Errors
     /// [`SceneError`] for units or a time step of an entry outside their range; a file that cannot be read is among
@@ -71,11 +99,17 @@ impl StudyRecords {
     pub fn read(study: &Study) -> Result<StudyRecords, SceneError> {
         let mut found = StudyRecords::default();
         let mut sources = sources(study, &mut found)?;
+        let mut described: BTreeMap<PathBuf, Described> = BTreeMap::new();
+        for source in &sources {
+            let most = described.entry(source.file.clone()).or_insert(source.described);
+            *most = source.described.max(*most);
+        }
         let mut seen = BTreeSet::new();
-        sources.retain(|source| seen.insert(std::fs::canonicalize(&source.path).unwrap_or_else(|_| source.path.clone())));
-        let same = |name: &str| sources.iter().filter(|source| source.name == name).count() > 1;
-        let named = |source: &Source| if same(&source.name) { folder::shown(&source.path) } else { source.name.clone() };
-        let names: Vec<String> = sources.iter().map(named).collect();
+        sources.retain(|source| {
+            let component = source.options.component.as_ref().map(|component| component.to_string().to_lowercase());
+            described.get(&source.file) == Some(&source.described) && seen.insert((source.file.clone(), component))
+        });
+        let names: Vec<String> = sources.iter().map(|source| source.name_among(&sources)).collect();
         let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
         for ((name, source), record) in names.into_iter().zip(&sources).zip(read) {
             match record {
@@ -146,7 +180,13 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
                 Ok(inside) if !inside.as_os_str().is_empty() => folder::shown(inside),
                 _ => file.file_name().map_or_else(|| folder::shown(&file), |name| name.to_string_lossy().into_owned()),
             };
-            sources.push(Source { name, path: file, options: options.clone(), event: event.clone() });
+            let described = match entry {
+                RecordEntry::Path(_) => Described::Bare,
+                RecordEntry::Described(_) if file == path => Described::Alone,
+                RecordEntry::Described(_) => Described::OfFolder,
+            };
+            let known = std::fs::canonicalize(&file).unwrap_or_else(|_| file.clone());
+            sources.push(Source { name, path: file, file: known, options: options.clone(), event: event.clone(), described });
         }
     }
     Ok(sources)
@@ -187,6 +227,42 @@ mod tests {
         // Two of one name are distinguished.
         let found = StudyRecords::read(&study(folder.path(), "['a/1.csv', 'a/deeper/1.csv']")).unwrap();
         assert!(names(&found)[0].ends_with("/a/1.csv") && names(&found)[1].ends_with("/a/deeper/1.csv"));
+    }
+
+    const TWO_COMPONENTS: &str = r#"{ "dT": 0.01, "data_x": [0.0, 1.0, 0.0], "data_y": [0.0, 3.0, 0.0] }"#;
+
+    #[test]
+    fn components_of_a_file_are_records_of_their_own() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("both.json"), TWO_COMPONENTS).unwrap();
+        let entry = |component: &str| format!("{{ file = 'both.json', component = '{component}' }}");
+        let [x, y] = ["x", "y"].map(entry);
+        let found = StudyRecords::read(&study(folder.path(), &format!("[{x}, {y}, {x}]"))).unwrap();
+        assert_eq!(names(&found), ["both.json, x", "both.json, y"], "{:?}", found.unreadable);
+        let peaks: Vec<f64> = found.records.iter().map(|record| record.motion.intensity.pga_m_s2).collect();
+        assert_eq!(peaks[1], 3.0 * peaks[0]);
+    }
+
+    #[test]
+    fn the_entry_that_describes_a_file_counts() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("a")).unwrap();
+        std::fs::write(folder.path().join("a/plain.g3"), "0 1 2 1 0").unwrap();
+        std::fs::write(folder.path().join("a/1.csv"), "time_s,acc_g\n0,0\n0.01,0.1\n0.02,0.2\n").unwrap();
+        let own = "{ file = 'a/plain.g3', units = 'm/s2', time_step_s = 0.02 }";
+        let of_folder = "{ file = 'a', event = 'all' }";
+        for entries in [format!("['a', {own}]"), format!("[{own}, 'a']"), format!("[{of_folder}, {own}, 'a/1.csv']")] {
+            let found = StudyRecords::read(&study(folder.path(), &entries)).unwrap();
+            assert_eq!((found.records.len(), &found.unreadable[..]), (2, &[][..]), "{entries}");
+            for record in &found.records {
+                let all = entries.contains("all") && record.name == "1.csv";
+                assert_eq!(record.event.as_deref(), all.then_some("all"), "{entries}: {}", record.name);
+            }
+        }
+        let events = "['a/1.csv', { file = 'a/1.csv', event = 'A' }, { file = 'a/1.csv', event = 'B' }]";
+        let found = StudyRecords::read(&study(folder.path(), events)).unwrap();
+        let of: Vec<Option<&str>> = found.records.iter().map(|record| record.event.as_deref()).collect();
+        assert_eq!(of, [Some("A")]);
     }
 
     #[test]

@@ -162,7 +162,7 @@ fn built(problem: &Problem<'_>, list: &PartsList) -> String {
         let of_scene = |capacity: f64| {
             let [scene, chosen] = [capacity, list.pinion.load_n].map(|force| figures(1e-3 * force));
             format!(
-                "- The clutch of the scene slips at {scene} kN and limits what is needed here; the chosen one slips at {chosen} kN. To try that, give it as \
+                "- The clutch of the scene slips at {scene} kN and limits what is needed here; the chosen one slips at {chosen} kN, which the chosen support bears. To try that, give it as \
                  clutch.capacity_n.\n"
             )
         };

@@ -83,6 +83,8 @@ pub struct Sizing<'a> {
     pub controlled: bool,
     /// The chosen clutches, where they were tried.
     pub built: Option<&'a Built>,
+    /// The scene has a clutch of its own that slips, so that the chosen one was not tried.
+    pub slips: bool,
     /// The scene's coil.
     pub coil: Option<CoilTable>,
 }
@@ -125,7 +127,10 @@ impl Sizing<'_> {
             needed.as_ref().map(|needed| preferred(series, basis.margin * needed.value)).filter(|size| size.is_finite())
         };
         let chosen_travel = with_margin(&R20, &travel);
-        list.sized("support", "force", "N", support.as_ref(), with_margin(&R10, &support));
+        // What slips later than the scene's clutch pulls with more than was needed here.
+        let slips_at = if self.slips { preferred(&R10, pinion.load_n) } else { 0.0 };
+        let chosen_support = with_margin(&R10, &support).map(|force| force.max(slips_at));
+        list.sized("support", "force", "N", support.as_ref(), chosen_support);
         list.sized("rack", "travel to each side", "m", travel.as_ref(), chosen_travel);
         let teeth = chosen_travel.map(|travel| rack_teeth(travel, pinion.module_mm));
         list.follows("rack", "teeth", "", teeth);

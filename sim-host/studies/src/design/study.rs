@@ -199,6 +199,8 @@ impl<'a> Problem<'a> {
         let rack_speed = rack_speed.map(|speed| speed.or_larger(built.as_ref().and_then(|built| built.rack_speed_m_s.as_ref())));
         let inertance_kg = scene.devices[index].device.mass_ratio * self.mass_kg;
         let disc = Disc::new(inertance_kg, chosen.radius_m, rack_speed.as_ref().map_or(0.0, |speed| speed.value));
+        let clutch = scene.file.device[index].clutch.as_ref();
+        let scene_capacity_n = clutch.and_then(|clutch| clutch.capacity_n.or(clutch.capacity_ratio.map(|ratio| ratio * weight)));
         let sizing = Sizing {
             motions,
             asked: &asked,
@@ -210,6 +212,7 @@ impl<'a> Problem<'a> {
             allowed: delay.as_ref(),
             controlled: bare.is_controlled(),
             built: built.as_ref(),
+            slips: scene_capacity_n.is_some(),
             coil,
         };
         let sensors = sizing.sensors();
@@ -230,10 +233,7 @@ impl<'a> Problem<'a> {
             delay_unknown,
             built,
             built_unknown,
-            scene_capacity_n: scene.file.device[index]
-                .clutch
-                .as_ref()
-                .and_then(|clutch| clutch.capacity_n.or_else(|| clutch.capacity_ratio.map(|ratio| ratio * weight))),
+            scene_capacity_n,
             sensors,
             friction_needed: followed.clone().filter_map(|asked| asked.friction_needed).reduce(f64::max),
             contact_lost: followed.filter(|asked| asked.contact_lost).count(),

@@ -107,15 +107,23 @@ struct Kind {
     ideals: Vec<(Outcome, f64)>,
 }
 
-/// Where the 95th percentile leaves 5 %, in words.
-fn breaking(sweep: &Sweep, name: &str, high: &[(f64, f64)]) -> String {
-    let beyond: Vec<String> =
-        high.iter().filter(|(_, size)| *size > 5.0 || size.is_nan()).map(|(value, _)| text_table::number(*value, 2)).collect();
-    if beyond.is_empty() {
-        format!("Under {name} the 95th percentile stays within 5 % over the whole range.")
-    } else {
-        format!("Under {name} the 95th percentile is beyond 5 % at {}{}.", beyond.join(", "), sweep.unit)
+/// Where the 95th percentile leaves 5 %, in words; NaN where no motion has both standing.
+fn breaking(unit: &str, name: &str, high: &[(f64, f64)]) -> String {
+    let values = |of: fn(f64) -> bool| -> String {
+        let values = high.iter().filter(|(_, size)| of(*size)).map(|(value, _)| text_table::number(*value, 2));
+        values.collect::<Vec<String>>().join(", ")
+    };
+    let (beyond, unknown) = (values(|size| size > 5.0), values(f64::is_nan));
+    let mut words = match (&beyond[..], high.iter().all(|(_, size)| size.is_nan())) {
+        (_, true) => return format!("Under {name} the 95th percentile cannot be said: there is no change to take it of."),
+        ("", _) if unknown.is_empty() => format!("Under {name} the 95th percentile stays within 5 % over the whole range."),
+        ("", _) => format!("Under {name} the 95th percentile stays within 5 % where there is one."),
+        (beyond, _) => format!("Under {name} the 95th percentile is beyond 5 % at {beyond}{unit}."),
+    };
+    if !unknown.is_empty() {
+        words += &format!(" It cannot be said at {unknown}{unit}, where there is no change to take it of.");
     }
+    words
 }
 
 /// Peaks of records over g tan α, by turns.
@@ -196,14 +204,8 @@ fn add(
             median.push((value, 100.0 * comparison.size(0.5)));
             high.push((value, 100.0 * comparison.size(0.95)));
         }
-        words.push(breaking(sweep, kind.name, &high));
-        let line = |name: &str, points: Vec<(f64, f64)>| Line { name: name.to_owned(), points, marks: true, ..Line::default() };
-        panels.push(ChartPanel {
-            title: kind.name.to_owned(),
-            y_title: "change (%)".to_owned(),
-            y: Scale::Linear,
-            lines: vec![line("median size", median), line("95th percentile", high)],
-        });
+        words.push(breaking(sweep.unit, kind.name, &high));
+        panels.extend(panel(kind.name, [("median size", median), ("95th percentile", high)]));
     }
     report.section(sweep.heading);
     report.paragraph(&words.join(" "));
@@ -211,8 +213,51 @@ fn add(
     let mut table = TextTable::new(0, columns);
     rows.into_iter().for_each(|row| table.row(row));
     report.table(&name, table);
-    let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
-    let chart = Chart { title: title.into(), x_title, x, columns: panels.len(), panels, keys: Vec::new() };
-    report.figure(&name, sweep.heading, chart_figure(&chart)?);
+    if !panels.is_empty() {
+        let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
+        let chart = Chart { title: title.into(), x_title, x, columns: panels.len(), panels, keys: Vec::new() };
+        report.figure(&name, sweep.heading, chart_figure(&chart)?);
+    }
     Ok(())
+}
+
+/// The panel of motions called `title` with the numbers of its `lines`; none where these have no number at all.
+fn panel(title: &str, lines: [(&str, Vec<(f64, f64)>); 2]) -> Option<ChartPanel> {
+    let lines = lines.map(|(name, mut points)| {
+        points.retain(|point| point.1.is_finite());
+        Line { name: name.to_owned(), points, marks: true, ..Line::default() }
+    });
+    let (title, y_title) = (title.to_owned(), "change (%)".to_owned());
+    let drawn = lines.iter().any(|line| !line.points.is_empty());
+    drawn.then(|| ChartPanel { title, y_title, y: Scale::Linear, lines: lines.into() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HIGH: [(f64, f64); 3] = [(1.0, 3.0), (2.0, 7.0), (5.0, f64::NAN)];
+
+    #[test]
+    fn what_has_no_change_is_beyond_nothing() {
+        let words = |high: &[(f64, f64)]| breaking(" ms", "records", high);
+        assert_eq!(words(&HIGH[..1]), "Under records the 95th percentile stays within 5 % over the whole range.");
+        assert_eq!(words(&HIGH[..2]), "Under records the 95th percentile is beyond 5 % at 2.00 ms.");
+        let unknown = "It cannot be said at 5.00 ms, where there is no change to take it of.";
+        assert_eq!(words(&HIGH), format!("Under records the 95th percentile is beyond 5 % at 2.00 ms. {unknown}"));
+        let within = words(&[HIGH[0], HIGH[2]]);
+        assert_eq!(within, format!("Under records the 95th percentile stays within 5 % where there is one. {unknown}"));
+        let nothing = "Under records the 95th percentile cannot be said: there is no change to take it of.";
+        assert_eq!(words(&HIGH[2..]), nothing);
+    }
+
+    #[test]
+    fn a_picture_leaves_out_what_is_no_number() {
+        let drawn = panel("records", [("median size", HIGH.to_vec()), ("95th percentile", HIGH[2..].to_vec())]).unwrap();
+        let points: Vec<usize> = drawn.lines.iter().map(|line| line.points.len()).collect();
+        assert_eq!(points, [2, 0]);
+        let title = "Delay".to_owned();
+        chart_figure(&Chart { title: title.into(), columns: 1, panels: vec![drawn], ..Chart::default() }).unwrap();
+        assert_eq!(panel("records", [("median size", HIGH[2..].to_vec()), ("95th percentile", Vec::new())]), None);
+    }
 }

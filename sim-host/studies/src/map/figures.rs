@@ -23,16 +23,13 @@ const BANDS: f64 = 14.0;
 const ROTATION: &str = "peak rotation max |θ|/α";
 const ACCELERATION: &str = "peak angular acceleration max |θ̈|/(p²α)";
 
-/// The pictures of a map: name, SVG text.
-///
-/// # Errors
-/// [`PlotError`].
-pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>, PlotError> {
+/// The pictures of a map: name, and SVG text where there is something to draw.
+pub fn figures(grid: &Grid, tally: &Tally) -> Vec<(&'static str, Result<String, PlotError>)> {
     let Some(y) = &grid.map.y else {
-        return Ok(vec![("cut", cut(grid, tally)?)]);
+        return vec![("cut", cut(grid, tally))];
     };
     let outcomes = small_multiples(grid, y, tally, "", Class::outcomes(), |result| Cell::from(result.outcome).class());
-    let mut files = vec![("map", cell_map_figure(&outcomes)?)];
+    let mut files = vec![("map", cell_map_figure(&outcomes))];
     let spectra: [(&str, &str, Peak); 2] = [
         ("rotation", ROTATION, |result| result.peak_rotation),
         ("acceleration", ACCELERATION, |result| result.peak_acceleration),
@@ -51,9 +48,9 @@ pub fn figures(grid: &Grid, tally: &Tally) -> Result<Vec<(&'static str, String)>
             let rocks = result.outcome != Outcome::NoRocking;
             band(&limits, rocks.then(|| peak(result)))
         };
-        files.push((file, cell_map_figure(&small_multiples(grid, y, tally, name, classes, class))?));
+        files.push((file, cell_map_figure(&small_multiples(grid, y, tally, name, classes, class))));
     }
-    Ok(files)
+    files
 }
 
 /// Round limits of bands from 0 up to `largest`.

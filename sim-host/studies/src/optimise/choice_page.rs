@@ -10,13 +10,13 @@ use sprag_sim::scene::schema::{DeviceTable, Kind};
 use super::delay::{Late, is_commanded};
 use super::findings::{Findings, Row};
 use super::limit::Quantity;
-use super::notes::{device, share, short};
+use super::notes::{by_objective, device, share, short};
 use super::page::{heading, limits};
 use super::problem::{Choices, Problem};
 use super::ranking::Ranking;
 use super::verdict::{points, rival_name, rotation_ratio};
 use crate::cloud::pages::percent;
-use crate::statistics::Paired;
+use crate::statistics::{Band, Paired};
 
 /// `choice.md`; none where no device respects the limits.
 pub fn choice_page(problem: &Problem<'_>, findings: &Findings) -> Option<String> {
@@ -34,7 +34,7 @@ pub fn choice_page(problem: &Problem<'_>, findings: &Findings) -> Option<String>
     Some(page)
 }
 
-/// `choice.svg`: the paired differences; none where there is no choice.
+/// `choice.svg`: the paired differences; none where there is no choice, and where they have no band.
 ///
 /// # Errors
 /// The errors of [`interval_figure`].
@@ -43,14 +43,19 @@ pub fn choice_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Opti
     let intervals: Vec<Interval> = ranking
         .rivals
         .iter()
-        .map(|rival| Interval {
-            name: rival_name(&rival.row),
-            value: 100.0 * rival.overturning.difference,
-            band: rival.overturning.band.times(100.0),
-            verdict: rival.short_verdict().to_owned(),
-            sure: rival.sure,
+        .filter_map(|rival| {
+            Some(Interval {
+                name: rival_name(&rival.row),
+                value: 100.0 * rival.overturning.difference,
+                band: rival.overturning.band?.times(100.0),
+                verdict: rival.short_verdict().to_owned(),
+                sure: rival.sure,
+            })
         })
         .collect();
+    if intervals.is_empty() {
+        return Ok(None);
+    }
     let mut conditions = of_blocks(&[&problem.choices.structure.scene]);
     conditions.push(sprag_report::plot::literal(&format!(
         "{} beside its rivals: {} bands over {} independent groups of motions",
@@ -67,13 +72,14 @@ fn why(choices: &Choices<'_>, findings: &Findings, best: &Row) -> String {
     let reference = &findings.reference;
     let mut text = format!(
         "\n## Why\n\nIt overturns under {}, the bare block under {}: it saves {} and overturns under {} that the bare block survives.\n\
-         Of {} devices tried, and within the limits ({}), none overturns under fewer",
+         Of {} devices tried, and within the limits ({}), none overturns under fewer{}",
         share(best),
         reference.overturned,
         best.saved,
         best.newly_overturned,
         findings.designs,
-        limits(choices)
+        limits(choices),
+        by_objective(choices)
     );
     if let (Some(robust), count) = (choices.table.robust, findings.specimens.len()) {
         let of = robust.quantile.map_or_else(|| "mean".to_owned(), |share| format!("{} quantile", percent(share)));
@@ -85,7 +91,7 @@ fn why(choices: &Choices<'_>, findings: &Findings, best: &Row) -> String {
         text = text.replacen("## Why\n", &format!("## Why\n{scatter}"), 1);
     }
     text += match best.median_peak_rotation {
-        Some(_) if reference.overturned == 0 => ", and none has a smaller median rotation.\n",
+        Some(_) if reference.overturned == 0 => ", and none of as few has a smaller median rotation.\n",
         _ => ".\n",
     };
     if let (Some(best), bare) = (best.median_peak_rotation, reference.median_peak_rotation) {
@@ -105,12 +111,13 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
         TextTable::new(1, ["rival", "overturned", "fewer by", "from", "to", "better in", "worse in", "chance", "θ ratio"]);
     for rival in &ranking.rivals {
         let paired = &rival.overturning;
+        let [low, high] = ends(paired);
         table.row(vec![
             rival_name(&rival.row),
             rival.row.overturned.to_string(),
             points(paired.difference),
-            points(paired.band.low),
-            points(paired.band.high),
+            low,
+            high,
             paired.groups_above.to_string(),
             paired.groups_below.to_string(),
             if paired.chance < 0.001 { "< 0.001".to_owned() } else { format!("{:.3}", paired.chance) },
@@ -124,15 +131,18 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
     if ranking.pulses > 0 {
         known += &format!(", and {} pulses, which are no sample of anything", ranking.pulses);
     }
+    let resamples = ranking.bootstrap.resamples;
+    let resampled = match ranking.groups {
+        0 | 1 => "which one\nindependent group of motions does not give".to_owned(),
+        groups => format!("by {resamples} resamples of the\n{groups} independent groups of motions (earthquakes{known})"),
+    };
     text += &format!(
-        "\n{}\nFewer by, from, to: share of the motions that overturn the rival less that of the choice, and its {} band, by {} resamples of the\n\
-         {} independent groups of motions (earthquakes{known}). Better in, worse in: groups; chance: probability of such counts between equals\n\
+        "\n{}\nFewer by, from, to: share of the motions that overturn the rival less that of the choice, and its {} band, {resampled}. \
+         Better in, worse in: groups; chance: probability of such counts between equals\n\
          (sign test). \"Better\" and \"worse\" need both: a band without 0, and a chance of at most {}. θ ratio: geometric mean of max |θ| with the\n\
          choice over that with the rival, under motions that rock both and overturn neither.\n",
         table.markdown(),
         percent(level.value()),
-        ranking.bootstrap.resamples,
-        ranking.groups,
         percent(1.0 - level.value())
     );
     let again: Vec<String> = ranking
@@ -154,6 +164,11 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
     text
 }
 
+/// The ends of a band; dashes without one.
+fn ends(paired: &Paired) -> [String; 2] {
+    paired.band.map_or_else(|| ["-", "-"].map(str::to_owned), |band| [band.low, band.high].map(points))
+}
+
 /// "100 % ± 5 %".
 fn plus_minus(width: f64) -> String {
     format!("100 % ± {}", percent(width))
@@ -171,19 +186,23 @@ fn capital(text: &str) -> String {
 fn costs(choices: &Choices<'_>, best: &Row) -> String {
     let mut table = TextTable::new(1, ["", "asks for", "limit", "left"]);
     let score = &best.score;
-    let known = |quantity: &Quantity| match quantity {
+    let stands = score.stroke_m.is_some();
+    let known = |quantity: Quantity| match quantity {
+        Quantity::Force => choices.limits.force_of_overturned || stands,
+        Quantity::Stroke => stands,
         Quantity::ToothStress => score.tooth_stress_mpa.is_some(),
         Quantity::CoilEnergy => score.coil_energy_j.is_some(),
-        Quantity::Force | Quantity::Stroke => true,
     };
-    for quantity in Quantity::ALL.into_iter().filter(known) {
-        let asks = score.asks(quantity);
+    let has = |quantity: &Quantity| known(*quantity) || Quantity::TRADED.contains(quantity);
+    for quantity in Quantity::ALL.into_iter().filter(has) {
+        let asks = known(quantity).then(|| score.asks(quantity));
         let limit = choices.limits.of(quantity);
+        let dash = || "-".to_owned();
         table.row(vec![
             quantity.title().to_owned(),
-            format!("{asks:.4}"),
+            asks.map_or_else(dash, |asks| format!("{asks:.4}")),
             limit.map_or_else(|| "none".to_owned(), |limit| limit.to_string()),
-            limit.map_or_else(|| "-".to_owned(), |limit| points(1.0 - asks / limit)),
+            asks.zip(limit).map_or_else(dash, |(asks, limit)| points(1.0 - asks / limit)),
         ]);
     }
     let quantile = match choices.limits.quantile {
@@ -192,11 +211,11 @@ fn costs(choices: &Choices<'_>, best: &Row) -> String {
     };
     let mut text = format!("\n## What it costs\n\n{}\n{quantile}", table.markdown());
     text += if choices.limits.force_of_overturned {
-        "; forces until the block lies down where a motion overturns it.\n"
+        "; forces until the block lies down where a motion overturns it, the stroke where the block stands.\n"
     } else {
         " in which the block stands.\n"
     };
-    if let Some(mass) = choices.structure.scene.file.block.mass_kg {
+    if let Some(mass) = choices.structure.scene.file.block.mass_kg.filter(|_| known(Quantity::Force)) {
         text += &format!(
             "The block weighs {:.1} kN: a force of {:.1} kN.\n",
             1e-3 * mass * GRAVITY,
@@ -211,9 +230,9 @@ fn delays(findings: &Findings) -> String {
     let mut table = TextTable::new(0, ["later by (s)", "overturned", "fewer by", "from", "to", "better", "within limits"]);
     let yes = |yes: bool| if yes { "yes" } else { "no" }.to_owned();
     for late in &budget.late {
-        let Paired { difference, band, .. } = late.overturning;
-        let shares = [late.probability, difference, band.low, band.high].map(points);
-        table.row([vec![late.delay_s.to_string()], shares.to_vec(), vec![yes(late.better), yes(late.feasible)]].concat());
+        let shares = [late.probability, late.overturning.difference].map(points);
+        let words = [yes(late.better), yes(late.feasible)];
+        table.row([&[late.delay_s.to_string()][..], &shares, &ends(&late.overturning), &words].concat());
     }
     format!(
         "\n## How late its clutches may be\n\n{}.\n\n{}\nLater by: added to the time from command to engagement and to that from command to release. Fewer by: beside {}.\n",
@@ -245,9 +264,13 @@ pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Optio
         marks: true,
         ..Line::default()
     };
-    let ends =
-        |name: &str, of: fn(&Late) -> f64| Line { name: name.to_owned(), points: late(of), guide: true, ..Line::default() };
-    let band = format!("ends of its {} band", percent(findings.level.value()));
+    let mut fewer = vec![fewer];
+    for end in [|band: Band| band.low, |band: Band| band.high] {
+        let of = |late: &Late| Some((late.delay_s, 100.0 * end(late.overturning.band?)));
+        let points: Vec<(f64, f64)> = budget.late.iter().filter_map(of).collect();
+        let name = format!("ends of its {} band", percent(findings.level.value()));
+        fewer.extend((!points.is_empty()).then(|| Line { name, points, guide: true, ..Line::default() }));
+    }
     let panel = |y_title: &str, lines| ChartPanel { y_title: y_title.to_owned(), lines, ..ChartPanel::default() };
     chart_figure(&Chart {
         title: FigureTitle {
@@ -255,13 +278,7 @@ pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Optio
             conditions: of_blocks(&[&problem.choices.structure.scene]),
         },
         x_title: "clutches later by (s)".to_owned(),
-        panels: vec![
-            panel("motions that overturn (%)", vec![choice, rival]),
-            panel(
-                "fewer by (% of the motions)",
-                vec![fewer, ends(&band, |late| late.overturning.band.low), ends(&band, |late| late.overturning.band.high)],
-            ),
-        ],
+        panels: vec![panel("motions that overturn (%)", vec![choice, rival]), panel("fewer by (% of the motions)", fewer)],
         columns: 1,
         ..Chart::default()
     })

@@ -21,9 +21,10 @@ pub struct DelayBudget {
     pub rival: Row,
     /// By delay, 0 first.
     pub late: Vec<Late>,
-    /// Largest delay tried up to which the chosen device is better for sure; null where it is not without a delay.
+    /// Largest delay tried up to which the chosen device is better for sure and respects the limits; null where it is not better without a
+    /// delay.
     pub largest_delay_s: Option<f64>,
-    /// Least delay tried at which that is lost; null where it is not lost.
+    /// Least delay tried at which one of both is lost; null where neither is.
     pub lost_at_s: Option<f64>,
 }
 
@@ -55,8 +56,8 @@ fn plain<'a>(choices: &Choices<'_>, bare: &'a Design, designs: &'a [Design]) -> 
     inerter.filter(|inerter| preference(inerter, bare).is_lt()).unwrap_or(bare)
 }
 
-/// Tries the best of `designs` with the delays of the study, and then between the last at which it is better than its plain rival for sure and
-/// the first at which it is not. By delay.
+/// Tries the best of `designs` with the delays of the study, and then between the last at which it is better than its plain rival for sure within
+/// the limits and the first at which it is not. By delay.
 ///
 /// # Errors
 /// The errors of `evaluate`.
@@ -75,11 +76,12 @@ pub(super) fn try_late<E>(
     let rival = plain(choices, bare, designs);
     let delayed: Vec<Candidate> = choices.table.delays_s.iter().map(|&delay_s| Candidate { delay_s, ..at }).collect();
     let mut late = evaluate(&delayed)?;
+    let kept = |design: &Design| is_better(problem, design, rival) && choices.limits.allow(&design.score);
     for _ in 0..BISECTIONS {
         let delay = |design: &Design| design.candidate.map_or(0.0, |at| at.delay_s);
-        let Some(lost) = late.iter().position(|design| !is_better(problem, design, rival)) else { break };
-        let before = lost.checked_sub(1).map_or(chosen, |kept| &late[kept]);
-        if !is_better(problem, before, rival) {
+        let Some(lost) = late.iter().position(|design| !kept(design)) else { break };
+        let before = lost.checked_sub(1).map_or(chosen, |before| &late[before]);
+        if !kept(before) {
             break;
         }
         let middle = Candidate { delay_s: 0.5 * (delay(before) + delay(&late[lost])), ..at };
@@ -111,7 +113,7 @@ impl DelayBudget {
             })
         };
         let late: Vec<Late> = std::iter::once(undelayed).chain(&solution.late).filter_map(of_design).collect();
-        let lost = late.iter().position(|late| !late.better);
+        let lost = late.iter().position(|late| !late.better || !late.feasible);
         Some(DelayBudget {
             rival: row(rival),
             largest_delay_s: late[..lost.unwrap_or(late.len())].last().map(|late| late.delay_s),
@@ -128,7 +130,9 @@ impl DelayBudget {
                 format!("delay budget: still better than {rival} for sure at {delay} s, the largest delay tried")
             }
             (Some(delay), Some(lost)) => {
-                format!("delay budget: better than {rival} for sure up to {delay:.4} s later, no more at {lost:.4} s")
+                let beyond = self.late.iter().any(|late| late.delay_s == lost && late.better);
+                let lost_how = if beyond { "beyond the limits" } else { "no more" };
+                format!("delay budget: better than {rival} for sure up to {delay:.4} s later, {lost_how} at {lost:.4} s")
             }
             (None, _) => format!("delay budget: none, for it is not better than {rival} for sure without a delay"),
         }

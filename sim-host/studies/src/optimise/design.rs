@@ -6,7 +6,7 @@ use sprag_shared::observers::outcome::Outcome;
 use super::limit::{Limits, Quantity};
 use super::objective::Objective;
 use super::response::Response;
-use crate::statistics::quantile;
+use crate::statistics::{order_statistic, quantile};
 
 /// A device to be tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,10 +108,12 @@ impl Score {
                 rotations.push(response.peak_rotation.unwrap_or(f64::INFINITY));
             }
         }
-        score.force_ratio = quantile(&forces, limits.quantile).unwrap_or(0.0);
-        score.stroke_m = quantile(&strokes, limits.quantile);
-        score.tooth_stress_mpa = quantile(&stresses, limits.quantile);
-        score.coil_energy_j = quantile(&energies, limits.quantile);
+        // At least the share must respect a limit, which what lies between two motions would not say.
+        let held = |values: &[f64]| order_statistic(values, limits.quantile);
+        score.force_ratio = held(&forces).unwrap_or(0.0);
+        score.stroke_m = held(&strokes);
+        score.tooth_stress_mpa = held(&stresses);
+        score.coil_energy_j = held(&energies);
         score.median_rotation = quantile(&rotations, 0.5).unwrap_or(0.0);
         score
     }
@@ -185,6 +187,19 @@ mod tests {
         let of = |quantile: f64| Score::of(&responses, &bare, &Limits { quantile, ..LIMITS }, Objective::NOMINAL);
         assert_eq!((of(1.0).force_ratio, of(1.0).stroke_m), (1.0, Some(10.0)));
         assert!((of(0.9).force_ratio - 0.9).abs() < 1e-15 && (of(0.5).stroke_m.unwrap() - 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_share_of_a_limit_is_kept_by_whole_motions() {
+        // 0.9 of 4 motions are all of them, of 28 motions 26.
+        for (motions, quantile, respect) in [(4, 0.9, 4), (28, 0.9, 26), (10, 0.5, 5), (3, 0.0, 1)] {
+            let responses: Responses = (1..=motions).map(|k| stands(0.1, 0.1 * f64::from(k), 0.1)).collect();
+            for held in 1..=motions {
+                let limits = Limits { force: Some(0.1 * f64::from(held)), quantile, ..LIMITS };
+                let score = Score::of(&responses, &responses, &limits, Objective::NOMINAL);
+                assert_eq!(limits.allow(&score), held >= respect, "{held} of {motions} at {quantile}");
+            }
+        }
     }
 
     #[test]

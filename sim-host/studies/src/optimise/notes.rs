@@ -3,6 +3,7 @@
 use super::findings::{Findings, Row};
 use super::problem::Choices;
 use super::search::BEST_FACTOR;
+use crate::cloud::pages::percent;
 
 /// Notes on `findings`, in a line each.
 pub(super) fn notes(choices: &Choices<'_>, findings: &Findings) -> Vec<String> {
@@ -22,20 +23,27 @@ pub(super) fn notes(choices: &Choices<'_>, findings: &Findings) -> Vec<String> {
         });
         return notes;
     };
-    if reference.overturned == 0 && best.overturned == 0 {
+    if reference.score.median_rotation == 0.0 {
+        notes.push("No motion rocks the bare block: nothing to choose by.".to_owned());
+    } else if reference.overturned == 0 && best.overturned == 0 {
         notes.push("No motion overturns the bare block: the choice is by peak rotation only.".to_owned());
-    } else if best.overturned >= reference.overturned {
+    } else if best.score.objective >= reference.score.objective {
         notes.push(format!(
-            "No device that respects the limits overturns under fewer motions than the bare block ({}).",
+            "No device that respects the limits overturns under fewer motions{} than the bare block ({}).",
+            by_objective(choices),
             share(reference)
         ));
     }
-    let alike = findings.rows.iter().filter(|row| row.feasible && row.overturned == best.overturned).count();
-    if reference.overturned > 0 && alike > 1 {
+    let alike = || findings.rows.iter().filter(|row| row.feasible && row.score.objective == best.score.objective);
+    if reference.overturned > 0 && alike().count() > 1 {
+        let by_rotation = alike().any(|row| row.score.median_rotation != best.score.median_rotation);
         notes.push(format!(
-            "{alike} of the {} devices tried respect the limits and overturn under {}: the choice among them is by peak rotation.",
+            "{} of the {} devices tried respect the limits and overturn under {}{}: the choice among them is by {}.",
+            alike().count(),
             findings.designs,
-            share(best)
+            if by_objective(choices).is_empty() { share(best) } else { "as many motions".to_owned() },
+            by_objective(choices),
+            if by_rotation { "peak rotation" } else { "force" }
         ));
     }
     let feasible = || findings.rows.iter().filter(|row| row.feasible);
@@ -62,6 +70,12 @@ pub(super) fn notes(choices: &Choices<'_>, findings: &Findings) -> Vec<String> {
         }
     }
     notes
+}
+
+/// What makes motions many or few, where that is not their number.
+pub(super) fn by_objective(choices: &Choices<'_>) -> String {
+    let quantile = choices.table.robust.and_then(|robust| robust.quantile);
+    quantile.map_or_else(String::new, |share| format!(" by the {} quantile over the specimens", percent(share)))
 }
 
 /// A device in one string.

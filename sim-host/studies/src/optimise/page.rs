@@ -5,7 +5,7 @@ use sprag_report::text_table::TextTable;
 
 use super::findings::{Findings, Row};
 use super::limit::Quantity;
-use super::notes::{device, share, short};
+use super::notes::{by_objective, device, share, short};
 use super::problem::{Choices, Problem};
 use super::typed_tables::named_table;
 use crate::cloud::pages::percent;
@@ -27,19 +27,24 @@ pub fn choice_table(findings: &Findings) -> Result<TextTable, TableError> {
     TextTable::of(&named_table(rows))
 }
 
-/// What is limited, in words; "no limit" where nothing is.
+/// What is limited, in words, and in which motions; "no limit" where nothing is.
 pub fn limits(choices: &Choices<'_>) -> String {
     let limits = choices.limits;
+    let held = |standing: bool| {
+        let motions = match limits.quantile {
+            1.0 => "in every motion".to_owned(),
+            quantile => format!("as the {} quantile of the motions", percent(quantile)),
+        };
+        if standing { format!("{motions} in which the block stands") } else { motions }
+    };
     let force = limits.force.map(|limit| format!("max |F|/(mg) ≤ {limit}"));
-    let stroke = limits.stroke.map(|limit| format!("stroke ≤ {limit} m"));
     let stress = limits.tooth_stress.map(|limit| format!("tooth stress ≤ {limit} MPa"));
     let energy = limits.coil_energy.map(|limit| format!("coil energy ≤ {limit} J"));
-    let all: Vec<String> = [force, stroke, stress, energy].into_iter().flatten().collect();
-    if all.is_empty() { "no limit".to_owned() } else { format!("{} {}", all.join(" and "), motions_held(limits.quantile)) }
-}
-
-fn motions_held(quantile: f64) -> String {
-    if quantile == 1.0 { "in every motion".to_owned() } else { format!("as the {} quantile of the motions", percent(quantile)) }
+    let loads: Vec<String> = [force, stress, energy].into_iter().flatten().collect();
+    let loads = (!loads.is_empty()).then(|| format!("{} {}", loads.join(" and "), held(!limits.force_of_overturned)));
+    let stroke = limits.stroke.map(|limit| format!("stroke ≤ {limit} m {}", held(true)));
+    let all: Vec<String> = [loads, stroke].into_iter().flatten().collect();
+    if all.is_empty() { "no limit".to_owned() } else { all.join(" and ") }
 }
 
 /// `optimise.md`.
@@ -47,9 +52,10 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableE
     let choices = &problem.choices;
     let mut page = format!("# {}\n\n", heading(choices));
     page += &format!(
-        "The device for the structure \"{}\" that overturns under the fewest of {} motions, under {}.\n\n",
+        "The device for the structure \"{}\" that overturns under the fewest of {} motions{}, under {}.\n\n",
         choices.structure.name,
         findings.motions,
+        by_objective(choices),
         limits(choices)
     );
     page += &choice_table(findings)?.markdown();

@@ -28,7 +28,8 @@ pub struct Ranking {
     pub pulses: usize,
     /// The bare block, and the best of every other law and mount that respects the limits.
     pub rivals: Vec<Rival>,
-    /// Laws and mounts by how often they are chosen when as many groups are drawn with replacement.
+    /// Laws and mounts by how often they are chosen when as many groups are drawn with replacement; none where there is one group, which
+    /// every resample is.
     pub chosen_again: Vec<ChosenAgain>,
     /// Share of the motions that overturn the device that is chosen without them: what to expect under motions of the same kind that had no
     /// say in the choice. Null where no resample leaves a motion out.
@@ -43,6 +44,9 @@ pub struct Rival {
     pub row: Row,
     /// Difference of the shares of the motions that overturn.
     pub overturning: Paired,
+    /// Whether under every motion both overturn or both stand.
+    #[serde(skip)]
+    pub alike: bool,
     /// Difference of ln max |θ| under motions that rock both and overturn neither; null without any.
     pub log_rotation: Option<Paired>,
     /// Whether the difference in overturning is more than chance: its band leaves 0 out, and so does the sign test over groups.
@@ -69,9 +73,14 @@ impl Ranking {
             let overturning = overturning(problem, best, design)?;
             let sure = overturning.is_sure(bootstrap.level);
             let rotations = differences(best, design, problem.motions.len(), log_rotation);
-            Some(Rival { row, overturning, log_rotation: groups.paired(&rotations, bootstrap), sure })
+            let outcomes = |design: &Design| -> Vec<Option<bool>> {
+                design.responses.iter().map(|response| Some(response.as_ref().ok()?.outcome.overturned())).collect()
+            };
+            let alike = outcomes(best) == outcomes(design);
+            Some(Rival { row, overturning, alike, log_rotation: groups.paired(&rotations, bootstrap), sure })
         };
-        let (chosen_again, probability_left_out) = again(problem, solution, &groups, bootstrap);
+        let (chosen_again, probability_left_out) =
+            if groups.number() > 1 { again(problem, solution, &groups, bootstrap) } else { (Vec::new(), None) };
         Ranking {
             bootstrap,
             groups: groups.number(),

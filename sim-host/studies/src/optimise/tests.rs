@@ -97,6 +97,21 @@ fn limits_of_the_scene_stand_where_the_study_sets_none() {
     assert_eq!(limits("[optimise]\nlargest_tooth_stress_mpa = 150\nlargest_coil_energy_j = 20"), (Some(150.0), Some(20.0)));
 }
 
+/// A stroke is that of a standing block, whatever forces count.
+#[test]
+fn limits_say_in_which_motions_they_hold() {
+    let words = |optimise: &str| super::page::limits(&Choices::of(&study(&format!("[optimise]\n{optimise}"))).unwrap());
+    let [force, stroke] = ["largest_force_ratio = 0.3\n", "largest_stroke_m = 0.2\n"];
+    let standing = "force_of_overturned = false\n";
+    let both = words(&format!("{force}{stroke}"));
+    assert_eq!(both, "max |F|/(mg) ≤ 0.3 in every motion and stroke ≤ 0.2 m in every motion in which the block stands");
+    assert_eq!(words(force), "max |F|/(mg) ≤ 0.3 in every motion");
+    assert_eq!(words(&format!("{force}{standing}")), "max |F|/(mg) ≤ 0.3 in every motion in which the block stands");
+    let quantile = words(&format!("{stroke}limit_quantile = 0.9"));
+    assert_eq!(quantile, "stroke ≤ 0.2 m as the 90 % quantile of the motions in which the block stands");
+    assert_eq!(words(standing), "no limit");
+}
+
 #[test]
 fn one_of_several_structures_is_named() {
     let two = "[[structure]]\nname = 'a'\n[[structure]]\nname = 'b'\nset = { 'block.size_m' = 1 }\n";

@@ -8,6 +8,9 @@ use super::notes::device;
 use super::ranking::Rival;
 use crate::statistics::{Band, Level, Paired};
 
+/// Why there is no band.
+const NO_BAND: &str = "one independent group of motions: no band can be given";
+
 /// The name of a rival in a sentence.
 pub(super) fn rival_name(row: &Row) -> String {
     if row.mount.is_none() { "no device".to_owned() } else { device(row) }
@@ -18,9 +21,10 @@ impl Rival {
     pub fn verdict(&self, level: Level) -> String {
         let name = rival_name(&self.row);
         let by = amount(self);
-        let rotations = self.log_rotation.filter(|rotation| rotation.is_sure(level)).map(|rotation| {
-            format!("where both rock and stand, its peak rotations are {}", change(rotation.difference, rotation.band))
-        });
+        let sure = self.log_rotation.filter(|rotation| rotation.is_sure(level));
+        let rotations = sure
+            .and_then(|rotation| Some((rotation.difference, rotation.band?)))
+            .map(|(difference, band)| format!("where both rock and stand, its peak rotations are {}", change(difference, band)));
         match (self.sure, self.overturning.difference > 0.0, rotations) {
             (true, true, _) => format!("better than {name}: {by}"),
             (true, false, _) => format!("worse than {name}: {by}"),
@@ -40,15 +44,17 @@ impl Rival {
 }
 
 fn amount(rival: &Rival) -> String {
-    let (difference, band) = (rival.overturning.difference, rival.overturning.band);
-    if (difference, band.low, band.high) == (0.0, 0.0, 0.0) {
+    if rival.alike {
         return "under every motion both overturn or both stand".to_owned();
     }
-    let (size, [low, high], word) = if difference < 0.0 {
-        (-difference, [-band.high, -band.low], "more")
-    } else {
-        (difference, [band.low, band.high], "fewer")
+    let Paired { difference, band, .. } = rival.overturning;
+    let motions = match difference {
+        0.0 => "as many motions overturn both".to_owned(),
+        more if more < 0.0 => format!("{} more of the motions overturn it", points(-more)),
+        fewer => format!("{} fewer of the motions overturn it", points(fewer)),
     };
+    let Some(band) = band else { return format!("{motions} ({NO_BAND})") };
+    let [low, high] = if difference < 0.0 { [-band.high, -band.low] } else { [band.low, band.high] };
     let doubt = if rival.sure || low <= 0.0 {
         String::new()
     } else {
@@ -58,7 +64,7 @@ fn amount(rival: &Rival) -> String {
             " (better in {groups_above} groups and worse in {groups_below}, which has a probability of {chance} between equals)"
         )
     };
-    format!("{} {word} of the motions overturn it [{}, {}]{doubt}", points(size), points(low), points(high))
+    format!("{motions} [{}, {}]{doubt}", points(low), points(high))
 }
 
 /// A share of the motions in percent, with a decimal.
@@ -92,7 +98,7 @@ mod tests {
         let paired = |difference: f64, half: f64| Paired {
             pairs: 87,
             difference,
-            band: Band { low: difference - half, high: difference + half },
+            band: Some(Band { low: difference - half, high: difference + half }),
             groups_above: 12,
             groups_below: 1,
             chance: 0.004,
@@ -100,6 +106,7 @@ mod tests {
         Rival {
             row: Row::of_score(&Score::default()),
             overturning: paired(difference, half),
+            alike: false,
             log_rotation: log.map(|log| paired(log, 0.1)),
             sure,
         }
@@ -126,7 +133,27 @@ mod tests {
             "not distinguishable from no device: 10.0 % fewer of the motions overturn it [8.0 %, 12.0 %] (better in 12 groups and worse \
              in 1, which has a probability of 0.4 % between equals)"
         );
-        let same = rival(0.0, 0.0, false, Some(0.01)).verdict(Level::COMMON);
-        assert_eq!(same, "not distinguishable from no device: under every motion both overturn or both stand");
+    }
+
+    #[test]
+    fn as_many_motions_are_not_the_same_motions() {
+        let equal = rival(0.0, 0.0, false, Some(0.01));
+        let words = "not distinguishable from no device: as many motions overturn both [0.0 %, 0.0 %]";
+        assert_eq!(equal.verdict(Level::COMMON), words);
+        let same = Rival { alike: true, ..equal };
+        let words = "not distinguishable from no device: under every motion both overturn or both stand";
+        assert_eq!(same.verdict(Level::COMMON), words);
+    }
+
+    #[test]
+    fn one_group_of_motions_is_said_instead_of_a_band() {
+        let mut one = rival(0.25, 0.0, false, None);
+        one.overturning.band = None;
+        let words = one.verdict(Level::COMMON);
+        assert_eq!(
+            words,
+            "not distinguishable from no device: 25.0 % fewer of the motions overturn it (one independent group of motions: no band can \
+             be given)"
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! The ground motions of a study: the scene's own, and each record in its place.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use sprag_ensemble::shaken::Samples;
@@ -10,6 +11,7 @@ use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::side_by_side::Shaking;
 
 use super::variants::VERTICAL_RATIO;
+use crate::cloud::folder::shown;
 
 /// A ground motion, with and without a vertical one.
 #[derive(Debug)]
@@ -36,6 +38,26 @@ pub struct RecordFiles {
     pub horizontal: PathBuf,
     /// The vertical one of the same station, if there is one.
     pub vertical: Option<PathBuf>,
+}
+
+impl RecordFiles {
+    /// Those of `records` that are not named before, each with its name in tables: that of its file, or its whole path where another one is
+    /// called so.
+    pub fn named(records: &[RecordFiles]) -> Vec<(String, &RecordFiles)> {
+        let file = |path: &PathBuf| std::fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+        let mut seen = BTreeSet::new();
+        let new = |record: &&RecordFiles| seen.insert((file(&record.horizontal), record.vertical.as_ref().map(file)));
+        let once: Vec<&RecordFiles> = records.iter().filter(new).collect();
+        let name = |record: &RecordFiles| {
+            let same = once.iter().filter(|other| other.stem() == record.stem()).count() > 1;
+            if same { shown(&record.horizontal) } else { record.stem() }
+        };
+        once.iter().map(|record| (name(record), *record)).collect()
+    }
+
+    fn stem(&self) -> String {
+        self.horizontal.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
 }
 
 impl StudyMotion {
@@ -68,8 +90,7 @@ impl StudyMotion {
     pub fn record(scene: &Scene, record: &RecordFiles) -> Result<StudyMotion, GroundError> {
         let mut scene = scene.clone();
         scene.use_record(&record.horizontal)?;
-        let name = record.horizontal.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        StudyMotion::of(&scene, name, false, record.vertical.as_deref())
+        StudyMotion::of(&scene, record.stem(), false, record.vertical.as_deref())
     }
 
     fn of(scene: &Scene, name: String, own: bool, vertical: Option<&Path>) -> Result<StudyMotion, GroundError> {
@@ -128,4 +149,27 @@ pub fn with_vertical(scene: &Scene, record: Option<&Path>) -> Scene {
         }
     }
     scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_of_one_name_are_distinguished_and_count_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for inside in ["one", "other"] {
+            std::fs::create_dir(at(inside)).unwrap();
+            std::fs::write(at(inside).join("a.csv"), "").unwrap();
+        }
+        let of = |name: &str, vertical: Option<&str>| RecordFiles { horizontal: at(name), vertical: vertical.map(at) };
+        let again = of("other/../one/a.csv", None);
+        let records = [of("one/a.csv", None), again, of("other/a.csv", None), of("b.csv", Some("v.csv")), of("b.csv", None)];
+        let named = RecordFiles::named(&records[..4]);
+        let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, [&shown(&at("one/a.csv")), &shown(&at("other/a.csv")), "b"]);
+        // Another vertical component makes another motion.
+        assert_eq!(RecordFiles::named(&records[3..]).len(), 2);
+    }
 }

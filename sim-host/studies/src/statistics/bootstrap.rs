@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use serde::Serialize;
 use sprag_report::band::Band;
+use sprag_sim::interrupt::Interrupt;
 
 use super::fragility::{Fragility, FragilityError, of_stripes};
 use super::fragility_curve::FragilityCurve;
@@ -100,10 +101,13 @@ pub enum BootstrapError {
     #[error("resample {index}: {error}")]
     Resample {
         /// Its number, from 0.
-        index: usize,
+        index: u32,
         /// Error of the fragility curve.
         error: FragilityError,
     },
+    /// Ctrl-C.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 /// Bands of the fragility of `observations` and of its curve at `intensities`, on rayon's threads.
@@ -114,11 +118,12 @@ pub enum BootstrapError {
 ///
 /// # Errors
 ///
-/// [`BootstrapError`] for a number of resamples, an intensity or an observation outside its range.
+/// [`BootstrapError`] for a number of resamples, an intensity or an observation outside its range, and once `interrupt` is set.
 pub fn fragility_bands(
     observations: &[Observation],
     intensities: &[f64],
     bootstrap: Bootstrap,
+    interrupt: &Interrupt,
 ) -> Result<FragilityBands, BootstrapError> {
     if !(1..=MOST_RESAMPLES).contains(&bootstrap.resamples) {
         return Err(BootstrapError::Resamples { value: bootstrap.resamples });
@@ -127,13 +132,17 @@ pub fn fragility_bands(
         return Err(BootstrapError::Intensity { index, value });
     }
     let cases = Cases::of(Stripes::of(observations)?);
-    let found: Vec<Result<Fragility, FragilityError>> =
-        (0..bootstrap.resamples).into_par_iter().map(|index| of_stripes(&cases.resample(bootstrap.seed, index))).collect();
+    let resample = |index| match interrupt.is_set() {
+        true => Err(BootstrapError::Interrupted),
+        false => of_stripes(&cases.resample(bootstrap.seed, index)).map_err(|error| BootstrapError::Resample { index, error }),
+    };
+    // The first error by number, not by time.
+    let found: Vec<Result<Fragility, BootstrapError>> = (0..bootstrap.resamples).into_par_iter().map(resample).collect();
     let mut curves = Vec::with_capacity(found.len());
     let mut without_estimate = NoEstimateCounts::default();
-    for (index, found) in found.into_iter().enumerate() {
+    for found in found {
         let counts = &mut without_estimate;
-        let count = match found.map_err(|error| BootstrapError::Resample { index, error })? {
+        let count = match found? {
             Fragility::Estimated(curve) => {
                 curves.push(curve);
                 continue;
@@ -187,7 +196,7 @@ mod tests {
 
     #[test]
     fn threads_order_and_grouping_change_no_bit() {
-        let bands = fragility_bands(&ordinary(), &[0.7, 1.4], BOOTSTRAP).unwrap();
+        let bands = fragility_bands(&ordinary(), &[0.7, 1.4], BOOTSTRAP, &Interrupt::default()).unwrap();
         let mut cloud: Vec<Observation> = Vec::new();
         for stripe in ordinary().iter().rev() {
             let one = |index| Observation { overturned: u32::from(index >= stripe.of - stripe.overturned), of: 1, ..*stripe };
@@ -195,16 +204,16 @@ mod tests {
         }
         for threads in [1, 2, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert_eq!(pool.install(|| fragility_bands(&cloud, &[0.7, 1.4], BOOTSTRAP)).unwrap(), bands);
+            assert_eq!(pool.install(|| fragility_bands(&cloud, &[0.7, 1.4], BOOTSTRAP, &Interrupt::default())).unwrap(), bands);
         }
-        let other = fragility_bands(&ordinary(), &[0.7, 1.4], Bootstrap { seed: 8, ..BOOTSTRAP }).unwrap();
+        let other = fragility_bands(&ordinary(), &[0.7, 1.4], Bootstrap { seed: 8, ..BOOTSTRAP }, &Interrupt::default()).unwrap();
         assert_ne!(other.mu, bands.mu);
     }
 
     #[test]
     fn bands_are_about_those_of_large_samples() {
         let wanted = Bootstrap { resamples: 4000, ..BOOTSTRAP };
-        let bands = fragility_bands(&ordinary(), &[0.7, 1.1], wanted).unwrap();
+        let bands = fragility_bands(&ordinary(), &[0.7, 1.1], wanted, &Interrupt::default()).unwrap();
         let Fragility::Estimated(curve) = super::super::fragility(&ordinary()).unwrap() else { panic!() };
         assert_eq!(bands.estimated + bands.without_estimate.separated, 4000);
         let half = |band: Option<Band>| 0.5 * (band.unwrap().high - band.unwrap().low) / Level::COMMON.normal();
@@ -221,7 +230,7 @@ mod tests {
     fn resamples_without_an_estimate_are_counted() {
         // Four runs: each outcome of drawing four of them is as likely as any other, 4⁴ in all.
         let few = stripes(&[(1.0, 0, 1), (2.0, 1, 1), (3.0, 0, 1), (4.0, 1, 1)]);
-        let bands = fragility_bands(&few, &[2.5], Bootstrap { resamples: 20_000, ..BOOTSTRAP }).unwrap();
+        let bands = fragility_bands(&few, &[2.5], Bootstrap { resamples: 20_000, ..BOOTSTRAP }, &Interrupt::default()).unwrap();
         let counts = bands.without_estimate;
         let share = |count: u32| f64::from(count) / 20_000.0;
         // Only runs 1 and 3, or only 2 and 4: 16 of 256 each. An estimate needs 2 and 3 (overlap), and one beyond: see below.
@@ -255,7 +264,7 @@ mod tests {
 
     #[test]
     fn nothing_estimated_gives_no_bands() {
-        let bands = fragility_bands(&stripes(&[(1.0, 0, 5), (2.0, 0, 5)]), &[1.0], BOOTSTRAP).unwrap();
+        let bands = fragility_bands(&stripes(&[(1.0, 0, 5), (2.0, 0, 5)]), &[1.0], BOOTSTRAP, &Interrupt::default()).unwrap();
         assert_eq!((bands.estimated, bands.without_estimate.never_overturned, bands.share_without_estimate), (0, 400, 1.0));
         assert_eq!((bands.mu, bands.beta, bands.curve.len()), (None, None, 0));
         assert!(serde_json::to_string(&bands).unwrap().contains("\"resamples\":400"));
@@ -264,10 +273,18 @@ mod tests {
     #[test]
     fn what_is_outside_its_range_is_named() {
         let error = |observations: &[Observation], intensities: &[f64], resamples| {
-            fragility_bands(observations, intensities, Bootstrap { resamples, ..BOOTSTRAP }).unwrap_err()
+            fragility_bands(observations, intensities, Bootstrap { resamples, ..BOOTSTRAP }, &Interrupt::default()).unwrap_err()
         };
         assert_eq!(error(&ordinary(), &[], 0).to_string(), "0 resamples: allowed are 1 to 1000000");
         assert_eq!(error(&ordinary(), &[1.0, 0.0], 10), BootstrapError::Intensity { index: 1, value: 0.0 });
         assert_eq!(error(&[], &[], 10), BootstrapError::Observation(ObservationError::None));
+    }
+
+    #[test]
+    fn it_can_be_interrupted() {
+        let interrupt = Interrupt::default();
+        interrupt.set();
+        let bands = fragility_bands(&ordinary(), &[0.7], Bootstrap { resamples: MOST_RESAMPLES, ..BOOTSTRAP }, &interrupt);
+        assert_eq!(bands.unwrap_err(), BootstrapError::Interrupted);
     }
 }

@@ -41,6 +41,6 @@ pub use level::{Level, LevelError};
 pub use observation::{Observation, ObservationError};
 pub use paired::{Groups, Paired};
 pub use power_law::{DemandPoint, PowerLaw, PowerLawError};
-pub use quantile::{quantile, quantiles};
+pub use quantile::{order_statistic, quantile, quantiles};
 pub use sign_test::sign_test;
 pub use sprag_report::band::Band;

@@ -3,7 +3,7 @@
 use sprag_shared::math::ln;
 
 /// Difference of ln IM up to which intensities are one: what rounding leaves of a stripe that was scaled record by record. A
-/// fragility between them would be one of rounding.
+/// fragility or a power law between them would be one of rounding.
 pub const SAME_LN_INTENSITY: f64 = 1e-10;
 
 /// Runs at one intensity: `of` 1 for a record of a cloud analysis, more for a stripe.

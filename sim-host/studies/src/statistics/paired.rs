@@ -23,8 +23,9 @@ pub struct Paired {
     pub pairs: usize,
     /// Mean difference over the pairs.
     pub difference: f64,
-    /// Its band: percentiles of the bootstrap over groups (Efron and Tibshirani 1993, Chapter 13).
-    pub band: Band,
+    /// Its band: percentiles of the bootstrap over groups (Efron and Tibshirani 1993, Chapter 13). `None` where only one group has pairs,
+    /// which says nothing of how groups scatter.
+    pub band: Option<Band>,
     /// Groups whose differences sum up to more than 0.
     pub groups_above: usize,
     /// Groups whose differences sum up to less than 0.
@@ -84,18 +85,22 @@ impl Groups {
             (total.1 > 0.0).then(|| total.0 / total.1)
         };
         let difference = mean(&mut std::iter::repeat(1))?;
-        // A resample of groups that have no pair has no mean.
-        let means: Vec<f64> = (0..bootstrap.resamples)
-            .into_par_iter()
-            .filter_map(|index| mean(&mut self.weights(bootstrap.seed, index).into_iter()))
-            .collect();
-        let [low, high] = quantiles(&means, bootstrap.level.shares())?;
+        let band = || {
+            // A resample of groups that have no pair has no mean.
+            let means: Vec<f64> = (0..bootstrap.resamples)
+                .into_par_iter()
+                .filter_map(|index| mean(&mut self.weights(bootstrap.seed, index).into_iter()))
+                .collect();
+            let [low, high] = quantiles(&means, bootstrap.level.shares())?;
+            Some(Band { low, high })
+        };
+        let several = sums.iter().filter(|(_, count)| *count > 0).count() > 1;
         let count = |of: fn(f64) -> bool| sums.iter().filter(|(sum, _)| of(*sum)).count();
         let (groups_above, groups_below) = (count(|sum| sum > 0.0), count(|sum| sum < 0.0));
         Some(Paired {
             pairs: sums.iter().map(|(_, count)| *count as usize).sum(),
             difference,
-            band: Band { low, high },
+            band: if several { Some(band()?) } else { None },
             groups_above,
             groups_below,
             chance: sign_test(groups_above, groups_below),
@@ -107,7 +112,7 @@ impl Paired {
     /// Whether the difference is above 0 (or below) for sure at `level`: 0 lies outside of the band, and groups without a difference would
     /// not come as far apart. The band alone is too narrow where few groups differ: four that all go one way leave 0 outside of it.
     pub fn is_sure(&self, level: Level) -> bool {
-        (self.band.low > 0.0 || self.band.high < 0.0) && self.chance <= 1.0 - level.value()
+        self.band.is_some_and(|band| band.low > 0.0 || band.high < 0.0) && self.chance <= 1.0 - level.value()
     }
 }
 
@@ -126,9 +131,19 @@ mod tests {
     #[test]
     fn what_does_not_differ_has_no_band() {
         let same = each_alone(30).paired(&[Some(0.0); 30], BOOTSTRAP).unwrap();
-        assert_eq!((same.difference, same.band, same.chance), (0.0, Band { low: 0.0, high: 0.0 }, 1.0));
+        assert_eq!((same.difference, same.band, same.chance), (0.0, Some(Band { low: 0.0, high: 0.0 }), 1.0));
         assert!(!same.is_sure(Level::COMMON));
         assert_eq!(each_alone(3).paired(&[None; 3], BOOTSTRAP), None);
+    }
+
+    #[test]
+    fn one_group_has_a_difference_and_no_band() {
+        let one = Groups::of(&["a"; 8]).paired(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(Some), BOOTSTRAP).unwrap();
+        assert_eq!((one.pairs, one.difference, one.band, one.groups_above), (8, 0.25, None, 1));
+        assert!(!one.is_sure(Level::new(0.01).unwrap()));
+        // Groups without a pair are none.
+        assert_eq!(each_alone(3).paired(&[None, Some(1.0), None], BOOTSTRAP).unwrap().band, None);
+        assert!(each_alone(3).paired(&[None, Some(1.0), Some(0.0)], BOOTSTRAP).unwrap().band.is_some());
     }
 
     #[test]
@@ -139,7 +154,7 @@ mod tests {
         // One group of seven differs, in all of its ten pairs.
         let differences: Vec<Option<f64>> = (0..70).map(|index| Some(f64::from(u8::from(index < 10)))).collect();
         let found = groups.paired(&differences, BOOTSTRAP).unwrap();
-        assert!((found.difference - 1.0 / 7.0).abs() < 1e-12 && found.band.low == 0.0 && !found.is_sure(Level::COMMON));
+        assert!((found.difference - 1.0 / 7.0).abs() < 1e-12 && found.band.unwrap().low == 0.0 && !found.is_sure(Level::COMMON));
         assert_eq!((found.groups_above, found.groups_below, found.pairs), (1, 0, 70));
         // Taken as independent, they would be sure.
         assert!(each_alone(70).paired(&differences, BOOTSTRAP).unwrap().is_sure(Level::COMMON));
@@ -153,7 +168,8 @@ mod tests {
             each_alone(40).paired(&signed, BOOTSTRAP).unwrap()
         });
         assert_eq!((one.difference, one.groups_above, one.chance), (-other.difference, other.groups_below, other.chance));
-        assert!((one.band.low + other.band.high).abs() < 1e-12 && one.is_sure(Level::COMMON) == other.is_sure(Level::COMMON));
+        let [low, high] = [one.band.unwrap().low, other.band.unwrap().high];
+        assert!((low + high).abs() < 1e-12 && one.is_sure(Level::COMMON) == other.is_sure(Level::COMMON));
     }
 
     /// Two designs of which one overturns with a probability of 0.3 and the other of 0.15, over groups of one to four motions that share
@@ -181,7 +197,7 @@ mod tests {
             }
             let groups = Groups::of(&names);
             let found = groups.paired(&differences, bootstrap).unwrap();
-            held += usize::from(found.band.low <= 0.15 && 0.15 <= found.band.high);
+            held += usize::from(found.band.is_some_and(|band| band.low <= 0.15 && 0.15 <= band.high));
             sure_of_nothing += usize::from(groups.paired(&nothing, bootstrap).unwrap().is_sure(bootstrap.level));
         }
         // Three standard deviations of a share of 0.9 in 400 are 0.045.

@@ -5,6 +5,7 @@ use sprag_report::band::Band;
 use sprag_shared::math::{exp, ln, square_root};
 
 use super::level::Level;
+use super::observation::SAME_LN_INTENSITY;
 
 /// Fewest points: with two the line passes through both, and nothing is left to find the scatter from.
 pub const FEWEST_POINTS: usize = 3;
@@ -85,7 +86,7 @@ impl PowerLaw {
     /// # Errors
     ///
     /// [`PowerLawError`] for fewer than three points, a value that is not positive and finite, and intensities that are all
-    /// equal.
+    /// equal, or differ by no more than [`SAME_LN_INTENSITY`].
     pub fn fit(points: &[DemandPoint]) -> Result<PowerLaw, PowerLawError> {
         let wrong = PowerLawError::Number { found: points.len() };
         let Some(number) = u32::try_from(points.len()).ok().filter(|_| points.len() >= FEWEST_POINTS) else { return Err(wrong) };
@@ -99,7 +100,8 @@ impl PowerLaw {
         }
         let x: Vec<f64> = points.iter().map(|point| ln(point.intensity)).collect();
         let y: Vec<f64> = points.iter().map(|point| ln(point.demand)).collect();
-        if x.iter().all(|other| *other == x[0]) {
+        let ends = x.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [x.min(low), x.max(high)]);
+        if ends[1] - ends[0] <= SAME_LN_INTENSITY {
             return Err(PowerLawError::EqualIntensities { value: points[0].intensity, number: points.len() });
         }
         let (x_mean, y_mean) = (mean(&x), mean(&y));
@@ -234,5 +236,10 @@ mod tests {
         assert!(matches!(error(&[(f64::NAN, 1.0), (2.0, 2.0), (3.0, 1.0)]), PowerLawError::Intensity { index: 0, .. }));
         let equal = PowerLawError::EqualIntensities { value: 0.1, number: 3 };
         assert_eq!(error(&[(0.1, 1.0), (0.1, 2.0), (0.1, 3.0)]), equal);
+        // What scaling to one level leaves of it.
+        let rounded = 0.1 + f64::EPSILON * 0.1;
+        assert!(rounded > 0.1);
+        assert_eq!(error(&[(0.1, 1.0), (rounded, 2.0), (0.1, 3.0)]), equal);
+        assert!(PowerLaw::fit(&points(&[(0.1, 1.0), (0.1 * (1.0 + 1e-9), 2.0), (0.1, 3.0)])).is_ok());
     }
 }

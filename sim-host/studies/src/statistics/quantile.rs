@@ -23,6 +23,18 @@ pub fn quantiles<const N: usize>(values: &[f64], shares: [f64; N]) -> Option<[f6
     Some(found)
 }
 
+/// The least of `values` that at least the `share` of them do not exceed: x₍⌈share·n⌉₎, and x₍₁₎ at the share 0. Type 1 of Hyndman and Fan
+/// (1996), the inverse of the empirical distribution, which unlike [`quantile`] is one of the values. `None` as for [`quantile`].
+pub fn order_statistic(values: &[f64], share: f64) -> Option<f64> {
+    if values.iter().any(|value| value.is_nan()) || !(0.0..=1.0).contains(&share) {
+        return None;
+    }
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    // Shares of so many and not their product with `share`, whose rounding would ask for one more: 0.55 · 100 is above 55.
+    (1..=sorted.len()).find(|&held| held as f64 / sorted.len() as f64 >= share).and_then(|held| sorted.get(held - 1).copied())
+}
+
 fn of_sorted(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     if !(0.0..=1.0).contains(&share) {
@@ -60,8 +72,26 @@ mod tests {
         assert_eq!(quantile(&[1.0, 2.0], 0.5), Some(1.5));
     }
 
+    /// The definition itself: the share is kept at the value, and not at a smaller one.
+    #[test]
+    fn an_order_statistic_holds_for_its_share_of_the_values() {
+        for number in 1..=120_usize {
+            let values: Vec<f64> = (0..number).map(|index| ((index * 37) % number) as f64).collect();
+            for percent in 0..=100_u32 {
+                let found = order_statistic(&values, f64::from(percent) / 100.0).unwrap();
+                let holds = |limit: f64| values.iter().filter(|value| **value <= limit).count();
+                // In whole numbers, which do not round.
+                let enough = |count: usize| 100 * count >= percent as usize * number;
+                assert!(enough(holds(found)) && values.contains(&found), "{percent} % of {number}: {found}");
+                assert!(found == 0.0 || !enough(holds(found - 1.0)), "{percent} % of {number}: {found}");
+            }
+        }
+        assert_eq!(order_statistic(&[1.0, f64::INFINITY], 0.6), Some(f64::INFINITY));
+    }
+
     #[test]
     fn what_has_no_quantile_has_none() {
+        assert_eq!([order_statistic(&[], 0.5), order_statistic(&[f64::NAN], 0.5), order_statistic(&[1.0], 1.1)], [None; 3]);
         assert_eq!(quantile(&[], 0.5), None);
         assert_eq!(quantile(&[1.0, f64::NAN], 0.0), None);
         assert_eq!(quantile(&[1.0, 2.0], -0.1), None);
