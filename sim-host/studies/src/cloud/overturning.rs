@@ -112,10 +112,12 @@ impl DeviceFragility {
         })?;
         let intensities: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
         let bands = match fragility {
-            Fragility::Estimated(_) => Some(fragility_bands(&observations, &intensities, bootstrap, &Interrupt::default()).map_err(|error| {
-                let (structure, device) = names();
-                OverturningError::Bands { structure, device, error: Box::new(error) }
-            })?),
+            Fragility::Estimated(_) => {
+                Some(fragility_bands(&observations, &intensities, bootstrap, &Interrupt::default()).map_err(|error| {
+                    let (structure, device) = names();
+                    OverturningError::Bands { structure, device, error: Box::new(error) }
+                })?)
+            }
             _ => None,
         };
         Ok(Some(DeviceFragility {
