@@ -125,8 +125,8 @@ impl Supervisor {
             return [false; 2];
         }
         match (self.safe, state.ladder.missing) {
-            ([true, false], [true, false]) => [false, true],
-            ([false, true], [false, true]) => [true, false],
+            ([true, false], [true, _]) => [false, true],
+            ([false, true], [_, true]) => [true, false],
             _ => self.safe,
         }
     }
