@@ -95,6 +95,7 @@ class Record:
         component: str | None,
         format: str,
         warnings: list[str],
+        header: tuple[str, int | None, float | None, tuple[float, float] | None],
     ) -> Record: ...
 
 _Named = Sequence[tuple[str, Record]]
