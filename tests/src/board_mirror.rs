@@ -2,7 +2,7 @@
 
 use sprag_shared::control::sensing::sample::Reading;
 use sprag_shared::device::beginning::Beginning;
-use sprag_shared::device::coil::{PeakHold, current};
+use sprag_shared::device::coil::current;
 use sprag_shared::device::coil_test::{Coil, CoilDesign};
 use sprag_shared::device::counter::Extended;
 use sprag_shared::device::inertial::Component;
@@ -48,8 +48,7 @@ impl Mirror {
         let mut device = Device::new(&Beginning::of(Some(settings), None, 0.0).unwrap(), None);
         device.answer(&Request::Stream { every: 1 }, &Surroundings::default());
         let wiring = Wiring::of(settings);
-        let peak_hold = PeakHold::new(wiring.coil_pull_in_time, wiring.coil_hold_share, settings.period());
-        let design = CoilDesign::new(peak_hold, wiring.coil_engaged_current, wiring.coil_full_current);
+        let design = CoilDesign::of(&wiring, settings.period());
         Mirror { device, wiring, design, coils: Default::default(), travel: Extended::default() }
     }
 

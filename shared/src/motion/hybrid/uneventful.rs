@@ -8,7 +8,9 @@ use crate::equation::body::Body;
 use crate::math;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
+use crate::motion::observer::Observer;
 use crate::motion::state::Phase;
+use crate::structure::block::Geometry;
 
 impl<S: Real> HybridSystem<S> {
     /// Coefficients of the mode of `state`, with the command that is watched: its opposite while a jolt's sign holds.
@@ -86,8 +88,21 @@ impl<S: Real> HybridSystem<S> {
         (bound * (1.0 + pushed) + by_support + held) / lightest
     }
 
-    /// [`HybridSystem::push_bound`] on ground that has come to rest; without a bound where springs may push too.
-    pub fn last_push_bound(&self) -> f64 {
-        if self.transmission.traits().springs { f64::INFINITY } else { self.push_bound(0.0, 0.0, 1.0) }
+    /// Slender or full.
+    pub fn geometry(&self) -> Geometry {
+        match self.body {
+            AnyBody::Slender(_) => Geometry::Slender,
+            AnyBody::Full(_) => Geometry::Full,
+        }
+    }
+
+    /// Ends a motion at `time` (s), on ground that has come to rest ([`crate::motion::state::BlockState::end`]): outward from where friction holds the block no more.
+    /// Springs may bring it back from anywhere.
+    pub fn end(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
+        if !self.transmission.traits().springs {
+            let bound = self.push_bound(0.0, 0.0, 1.0);
+            let no_return = self.geometry().point_of_no_return(self.slenderness.to_f64(), bound);
+            state.motion.end(S::of(no_return), time, observer);
+        }
     }
 }

@@ -88,16 +88,9 @@ impl HybridBlock<'_> {
         HybridBlock::knows(self.system) && self.ground.is_plain()
     }
 
-    fn geometry(&self) -> Geometry {
-        match self.system.body {
-            AnyBody::Slender(_) => Geometry::Slender,
-            AnyBody::Full(_) => Geometry::Full,
-        }
-    }
-
     pub(crate) fn kind(&self) -> Kind {
         Kind {
-            geometry: self.geometry(),
+            geometry: self.system.geometry(),
             consistent: matches!(self.system.body, AnyBody::Full(body) if body.consistent),
             vertical: self.ground.is_vertical(),
             curved: matches!(self.ground, Ground::Pieces(_)),
@@ -126,7 +119,7 @@ impl HybridBlock<'_> {
 
     /// |θ| (rad) at which an outward motion counts as overturned, while the ground stays within ±`bound` (in g).
     fn overturned(&self, bound: f64) -> f64 {
-        match self.geometry() {
+        match self.system.geometry() {
             _ if self.overturned_at_slenderness => self.system.slenderness,
             // It lies on the ground.
             Geometry::Full => FRAC_PI_2,
@@ -168,8 +161,7 @@ impl HybridMotion {
             let quiet = Shaking::level(&Harmonics::QUIET);
             hybrid(Method::Adaptive(TIGHT)).advance(system, state, quiet, free_time, &limits, &mut watch)?;
         }
-        let no_return = block.geometry().point_of_no_return(system.slenderness, system.last_push_bound());
-        state.motion.end(no_return, free_time, &mut watch);
+        system.end(state, free_time, &mut watch);
         Ok(self)
     }
 

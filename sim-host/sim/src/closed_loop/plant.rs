@@ -281,8 +281,7 @@ impl<'a> Plant<'a> {
     /// Ends its motion, on ground that has come to rest.
     pub fn end(&mut self, watcher: &mut dyn Watcher) {
         watcher.segment(self.time, None);
-        let no_return = self.surroundings.course.machine_no_return(&self.machine);
-        self.state.motion.end(no_return, 0.0, watcher);
+        self.machine.end(&mut self.state, 0.0, watcher);
     }
 
     fn take_posture(&mut self) {

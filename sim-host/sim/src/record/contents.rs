@@ -2,7 +2,7 @@
 
 use super::error::RecordError;
 use super::number::BadField;
-use super::units::{StatedUnits, Units, said_in, stated_in};
+use super::units::{StatedUnits, Units, hinted_in, said_in};
 use super::warning::Warning;
 
 /// Layout of a record file.
@@ -103,7 +103,7 @@ pub(super) fn bad_field(name: &str, index: usize, field: BadField) -> RecordErro
 /// Units from header lines, given with their index from 0. Lines that say `units` go before mere hints, of which a remark may be one; none
 /// where several are stated.
 pub(super) fn header_units(name: &str, lines: &[(usize, &str)]) -> Result<Option<Units>, RecordError> {
-    for look in [said_in, stated_in] {
+    for look in [said_in, hinted_in] {
         let (mut known, mut unknown) = (Vec::new(), None);
         for (index, line) in lines {
             match look(line) {

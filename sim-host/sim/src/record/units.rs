@@ -105,9 +105,11 @@ pub(super) fn said_in(line: &str) -> Option<StatedUnits> {
 
 /// Looks for units in one header line: [by the word](said_in), or `Acceleration (m/s^2)`, `acc_g`, a bare `cm/sec/sec`.
 pub(super) fn stated_in(line: &str) -> Option<StatedUnits> {
-    if let Some(said) = said_in(line) {
-        return Some(said);
-    }
+    said_in(line).or_else(|| hinted_in(line))
+}
+
+/// Units that a header line has beside something else.
+pub(super) fn hinted_in(line: &str) -> Option<StatedUnits> {
     let lower = line.to_lowercase();
     let bracketed = || lower.split(['(', '[']).skip(1).filter_map(|part| part.split([')', ']']).next());
     let words = || lower.split([' ', '\t', ',', ';', '"']);

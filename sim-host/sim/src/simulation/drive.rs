@@ -92,11 +92,6 @@ impl<'a> Course<'a> {
         S::of(self.geometry.point_of_no_return(self.block.slenderness(), bound))
     }
 
-    /// The same of a device on ground that has come to rest.
-    pub fn machine_no_return<S: Real>(&self, machine: &HybridSystem<S>) -> S {
-        self.no_return(machine.last_push_bound())
-    }
-
     /// The block's weight at its lightest, over its weight at rest.
     pub fn lightest(&self) -> f64 {
         self.vertical.map_or(1.0, GroundMotion::lightest)
@@ -201,7 +196,7 @@ impl<'a> Course<'a> {
         let (shaking, duration) = (Shaking::level(&SumSegment::QUIET), S::of(self.free_time));
         let ended = integrator.advance(machine, state, shaking, duration, &limits(0.0, 0.0), observer);
         ended.map_err(|end| end.after(self.ground.duration()))?;
-        state.motion.end(self.machine_no_return(machine), duration, observer);
+        machine.end(state, duration, observer);
         Ok(())
     }
 
