@@ -25,12 +25,16 @@ pub enum TransmissionKind {
     Alone,
     /// One inerter, always engaged.
     Single,
-    /// One inerter with friction, on a guided rack, or on a support that moves on its own.
+    /// One inerter with friction, or on a guided rack.
     SingleWithFriction,
+    /// One inerter on a support that moves otherwise than the ground.
+    SingleOnSupport,
     /// The ideal clutched pair.
     Ideal,
-    /// The ideal clutched pair with friction, on a guided rack, or on a support that moves on its own.
+    /// The ideal clutched pair with friction, or on a guided rack.
     IdealWithFriction,
+    /// The ideal clutched pair on a support that moves otherwise than the ground.
+    IdealOnSupport,
     /// Rigid clutches.
     Rigid,
     /// Overrunning clutches.
@@ -68,6 +72,8 @@ pub struct Traits {
     pub through_impacts: bool,
     /// [`Transmission::PERMANENT`].
     pub permanent: bool,
+    /// [`Transmission::ON_SUPPORT`].
+    pub on_support: bool,
     /// Unknowns of its own, at most [`UNKNOWNS`].
     pub unknowns: usize,
     /// Number of its guards.
@@ -77,7 +83,7 @@ pub struct Traits {
 /// `$then` for the transmission of `$kind` in its own type, or in the one that is given for it last.
 macro_rules! match_transmission {
     ($kind:expr, $transmission:ident => $then:expr; $($($alias:ident)|+ => $type:expr,)+) => {{
-        use crate::drivetrain::{any_transmission::TransmissionKind, elastic, ideal, load_friction, overrunning, rigid};
+        use crate::drivetrain::{any_transmission::TransmissionKind, elastic, ideal, load_friction, overrunning};
         macro_rules! known {
             ($known:expr) => {{
                 let $transmission = &$known;
@@ -87,14 +93,10 @@ macro_rules! match_transmission {
         match $kind {
             TransmissionKind::Alone => known!(ideal::Alone),
             TransmissionKind::Single => known!(ideal::Single::<false>),
-            TransmissionKind::SingleWithFriction => known!(ideal::Single::<true>),
             TransmissionKind::Ideal => known!(ideal::IdealPair::<false>),
-            TransmissionKind::IdealWithFriction => known!(ideal::IdealPair::<true>),
             TransmissionKind::Overrunning => known!(overrunning::OverrunningPair),
             TransmissionKind::Elastic => known!(elastic::ElasticPair),
-            TransmissionKind::LoadedSingle => known!(load_friction::Loaded(ideal::Single::<true>)),
-            TransmissionKind::LoadedIdeal => known!(load_friction::Loaded(ideal::IdealPair::<true>)),
-            TransmissionKind::LoadedRigid => known!(load_friction::Loaded(rigid::RigidPair::<false>)),
+            TransmissionKind::LoadedRigid => known!(load_friction::Loaded($crate::drivetrain::rigid::RigidPair::<false>)),
             $($(TransmissionKind::$alias)|+ => known!($type),)+
         }
     }};
@@ -105,6 +107,12 @@ pub(crate) use match_transmission;
 macro_rules! each_transmission {
     ($kind:expr, $transmission:ident => $then:expr) => {
         $crate::drivetrain::any_transmission::match_transmission!($kind, $transmission => $then;
+            SingleWithFriction => $crate::drivetrain::ideal::Single::<true>,
+            IdealWithFriction => $crate::drivetrain::ideal::IdealPair::<true>,
+            SingleOnSupport => $crate::drivetrain::on_support::OnSupport::<false>,
+            IdealOnSupport => $crate::drivetrain::on_support::OnSupport::<true>,
+            LoadedSingle => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::Single::<true>),
+            LoadedIdeal => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::IdealPair::<true>),
             ViscousSingle => $crate::drivetrain::viscous::ViscousPair::<true>,
             Viscous => $crate::drivetrain::viscous::ViscousPair::<false>,
             Rigid | DraggedRigid => $crate::drivetrain::rigid::RigidPair::<true>,
@@ -113,10 +121,14 @@ macro_rules! each_transmission {
     };
 }
 
-/// The same for what flow and guards alone decide, as in steps: kinds with dashpots ([`super::dashpot`]) have them in common.
+/// The same for what flow and guards alone decide, as in steps: kinds with dashpots ([`super::dashpot`]) have them in common, and so have a
+/// single inerter and a pair whose clutches only lock.
 macro_rules! each_flow {
     ($kind:expr, $transmission:ident => $then:expr) => {
         $crate::drivetrain::any_transmission::match_transmission!($kind, $transmission => $then;
+            SingleWithFriction | IdealWithFriction => $crate::drivetrain::ideal::IdealPair::<true>,
+            SingleOnSupport | IdealOnSupport => $crate::drivetrain::on_support::OnSupport::<true>,
+            LoadedSingle | LoadedIdeal => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::IdealPair::<true>),
             Rigid => $crate::drivetrain::rigid::RigidPair::<false>,
             Friction => $crate::drivetrain::friction::FrictionPair::<false>,
             ViscousSingle | Viscous | DraggedRigid | DraggedFriction => $crate::drivetrain::viscous::ViscousPair::<false>,
@@ -141,6 +153,7 @@ impl<S: Real> AnyTransmission<S> {
                 springs: D::SPRINGS,
                 through_impacts: D::THROUGH_IMPACTS,
                 permanent: D::PERMANENT,
+                on_support: D::ON_SUPPORT,
                 unknowns: X,
                 guards: G,
             }

@@ -89,6 +89,15 @@ pub struct FlywheelState<S> {
     pub engaged_for: S,
 }
 
+/// Motion of a device's terminals against a support that moves otherwise than the ground: what Eq. 10 looks at there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Terminals<S> {
+    /// Speed that the support has gained on the ground, as that of the terminals, over R; 1/s.
+    pub support: S,
+    /// Sign of the rack's speed on the support.
+    pub direction: Sign,
+}
+
 /// State of both flywheels. A device with one uses the first.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DeviceState<S> {
@@ -100,6 +109,8 @@ pub struct DeviceState<S> {
     pub missed: u32,
     /// What is locked drives the rack: its force is against the motion. Friction that grows with load asks for it.
     pub drives: bool,
+    /// The terminals on a support that moves otherwise than the ground; none on another.
+    pub terminals: Option<Terminals<S>>,
 }
 
 impl<S: Real> DeviceState<S> {
@@ -114,14 +125,22 @@ impl<S: Real> DeviceState<S> {
         self.wheels.iter().map(|wheel| u32::from(wheel.coupling == Coupling::Locked)).sum()
     }
 
-    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches.
+    /// The device's unknowns at the start of a step: speeds of the flywheels, then twists of the clutches; on a support of its own motion that
+    /// support's speed alone.
     pub fn unknowns(&self) -> [S; UNKNOWNS] {
+        if let Some(terminals) = self.terminals {
+            return [terminals.support, S::ZERO, S::ZERO, S::ZERO];
+        }
         let [a, b] = &self.wheels;
         [a.spin, b.spin, a.twist, b.twist]
     }
 
     /// Stores the unknowns at the end of a step, where the rack has the speed `rack` (over R).
     pub fn store(&mut self, unknowns: &[S], rack: S) {
+        if let (Some(terminals), Some(&support)) = (&mut self.terminals, unknowns.first()) {
+            terminals.support = support;
+            return;
+        }
         for (i, wheel) in self.wheels.iter_mut().enumerate() {
             if let Some(&spin) = unknowns.get(i) {
                 wheel.spin = if wheel.coupling == Coupling::Locked { rack } else { spin };
@@ -204,6 +223,8 @@ pub enum Guard<S> {
     Nothing,
     /// sign · switching function: the command of Eq. 10.
     Command(S),
+    /// sign · speed of the rack on a support of its own motion: the velocity of Eq. 10 there.
+    Terminals(S),
     /// sign · (speed of the flywheel − speed of the rack): it runs ahead.
     Ahead(S, usize),
     /// sign · (force on a locked flywheel): what an overrunning clutch holds, or who drives whom.

@@ -1,5 +1,5 @@
 //! Ideal devices in the hybrid loop: none, one inerter, and the ideal clutched pair, for scenes that need this loop for another
-//! reason. With `FRICTION` the rack and the bearings lose energy, a guided rack has a mass, and the support moves on its own.
+//! reason. With `FRICTION` the rack and the bearings lose energy, and a guided rack has a mass.
 
 use super::transmission::{PointOf, Transmission};
 use crate::equation::body::Body;

@@ -11,6 +11,7 @@ pub mod elastic;
 pub mod friction;
 pub mod ideal;
 pub mod load_friction;
+pub mod on_support;
 pub mod overrunning;
 pub mod rigid;
 pub mod rise;

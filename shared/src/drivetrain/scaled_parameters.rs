@@ -1,6 +1,6 @@
 //! Drivetrain parameters in the units of the equations: forces over λmR, lengths over R, inertance over λm.
 
-use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients, Push};
+use super::clutch_state::{Coupling, DeviceState, FlywheelState, ModeCoefficients};
 use super::rise::{Line, whole};
 use crate::equation::Accelerations;
 use crate::math::root::bisection;
@@ -127,16 +127,15 @@ impl<S: Real> ScaledParameters<S> {
         self.support_push != S::ZERO || self.relative_push != S::ZERO
     }
 
+    /// Acceleration of the support's terminals against the ground, over ü_g/g and over (ü_s − ü_g)/g: n (f − 1) and n of g/R; 1/s².
+    pub fn support_rates(&self) -> [S; 2] {
+        [self.support_push * self.mobility, self.relative_push * self.mobility]
+    }
+
     /// Push of the support through one locked flywheel, under the accelerations `ground`; 1/s².
     pub fn support_force(&self, ground: Accelerations<S>) -> S {
         let force = self.support_push * ground[0];
         if self.relative_push == S::ZERO { force } else { force + self.relative_push * ground[2] }
-    }
-
-    /// Inertia force of ground and support on rack and flywheel if one flywheel were locked, with the sign of a resistance.
-    pub fn engaged_push(&self) -> Push<S> {
-        let support = (self.relative_push != S::ZERO).then_some(-self.relative_push);
-        Push { ground: self.rack_push - self.support_push, support }
     }
 
     /// Capacity now and its growth.

@@ -120,6 +120,8 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
     const THROUGH_IMPACTS: bool = false;
     /// The first flywheel is always locked.
     const PERMANENT: bool = false;
+    /// The support moves otherwise than the ground, and its speed is an unknown.
+    const ON_SUPPORT: bool = false;
 
     /// Coefficients of the present mode.
     fn law(
@@ -210,7 +212,7 @@ pub struct Account<S> {
     pub rack_force: S,
     /// Whether each flywheel is coupled.
     pub engaged: [bool; 2],
-    /// Speed of each flywheel as that of a rack moving with it, over R; 1/s.
+    /// Speed of each flywheel as that of a rack on its support moving with it, over R; 1/s.
     pub spin: [S; 2],
     /// Kinetic energy of flywheels and rack, and of springs; E/(λmR²), 1/s².
     pub stored: S,
@@ -281,11 +283,10 @@ pub fn driving_moment<S: Scalar, V: Value<S>, B: Body<S>, const X: usize>(
     moment - at.body.to_terminal(&at.configuration, force)
 }
 
-/// sign · switching function of Eq. 10; a moving support pushes as through the flywheel that is asked for, so that engaging it does not
-/// change the sign.
+/// sign · switching function of Eq. 10, on a support that moves with the ground.
 #[inline(always)]
 pub fn command<S: Real, V: Value<S>, B: Body<S>, const X: usize>(at: &PointOf<'_, S, B, V, X>, rack: bool, sign: S) -> V {
-    let driving_moment = driving_moment(at, rack.then(|| at.parameters.engaged_push()));
+    let driving_moment = driving_moment(at, rack.then_some(Push { ground: at.parameters.rack_push, support: None }));
     at.body.switching(&at.configuration, at.velocity, driving_moment).scale(sign)
 }
 
@@ -318,6 +319,7 @@ pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S
     let rack = at.body.to_terminal(&at.configuration, at.velocity);
     let rack_acceleration = at.body.terminal_acceleration(&at.configuration, at.velocity, acceleration);
     let mut account = Account::NOTHING;
+    let support = device.terminals.and_then(|_| at.unknowns.first().copied());
     let dry = at.law.direction * parameters.rack_dry;
     account.rack_force = parameters.rack_coupling * rack_acceleration
         + parameters.rack_push * at.ground[0]
@@ -328,7 +330,11 @@ pub fn account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S
     for (i, wheel) in device.wheels.iter().enumerate() {
         account.engaged[i] = wheel.coupling.is_engaged();
         let locked = wheel.coupling == Coupling::Locked;
-        let spin = if locked { rack } else { at.unknowns.get(i).copied().unwrap_or(S::ZERO) };
+        let spin = match (locked, support) {
+            (true, support) => rack - support.unwrap_or(S::ZERO),
+            (false, Some(_)) => S::ZERO,
+            (false, None) => at.unknowns.get(i).copied().unwrap_or(S::ZERO),
+        };
         account.spin[i] = spin;
         account.stored = account.stored + S::HALF * parameters.inertance * spin * spin;
         account.spent.bearing = account.spent.bearing

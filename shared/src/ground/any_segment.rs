@@ -91,6 +91,10 @@ impl<S: Real> GroundSegment<S> for AnySegment<S> {
         each!(self, segment => segment.slope(time))
     }
 
+    fn gain(&self, time: S) -> S {
+        each!(self, segment => segment.gain(time))
+    }
+
     fn curvature_bound(&self) -> S {
         each!(self, segment => segment.curvature_bound())
     }

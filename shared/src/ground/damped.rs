@@ -58,6 +58,13 @@ impl<S: Real> GroundSegment<S> for DampedOscillation<S> {
         self.rate(self.turned(time)).0
     }
 
+    fn gain(&self, time: S) -> S {
+        // The real part of (a + ib)(e^{μτ} − 1)/μ, and 1/μ = (−β − iω)/(β² + ω²).
+        let (real, imaginary) = self.turned(time);
+        let change = self.frequency * (imaginary - self.imaginary) - self.decay * (real - self.real);
+        change / (self.decay * self.decay + self.frequency * self.frequency)
+    }
+
     fn curvature_bound(&self) -> S {
         (self.decay * self.decay + self.frequency * self.frequency) * self.bound()
     }

@@ -113,6 +113,15 @@ impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
         })
     }
 
+    fn gain(&self, time: S) -> S {
+        self.terms.iter().fold(S::ZERO, |sum, term| {
+            // (cos φ − cos(ωτ + φ))/ω = τ sin(φ + x) sin x / x with x = ωτ/2, which loses nothing.
+            let x = S::HALF * term.frequency * time;
+            let share = if x == S::ZERO { S::ONE } else { x.sin_cos_of_phase().0 / x };
+            sum + term.amplitude * (term.phase + x).sin_cos_of_phase().0 * (share * time)
+        })
+    }
+
     fn curvature_bound(&self) -> S {
         self.terms.iter().fold(S::ZERO, |sum, term| sum + term.amplitude.abs() * (term.frequency * term.frequency))
     }

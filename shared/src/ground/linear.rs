@@ -48,6 +48,10 @@ impl<S: Real> GroundSegment<S> for Linear<S> {
         self.slope
     }
 
+    fn gain(&self, time: S) -> S {
+        time * (self.start + S::HALF * self.slope * time)
+    }
+
     fn curvature_bound(&self) -> S {
         S::ZERO
     }

@@ -29,6 +29,9 @@ pub trait GroundSegment<S: Real> {
     /// d(ü_g/g)/dτ at τ, 1/s.
     fn slope(&self, time: S) -> S;
 
+    /// ∫₀^τ ü_g/g dt, s: what the ground's velocity gains, over g.
+    fn gain(&self, time: S) -> S;
+
     /// Upper bound of |d²(ü_g/g)/dτ²| over the piece, 1/s²; 0 for straight lines.
     fn curvature_bound(&self) -> S;
 
@@ -50,6 +53,7 @@ pub trait GroundSegment<S: Real> {
 pub(crate) mod check {
     use super::*;
     use crate::math::power_series::MAXIMUM_ORDER;
+    use crate::math::quadrature::integral;
 
     /// Two motions at once.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,6 +66,10 @@ pub(crate) mod check {
 
         fn slope(&self, time: S) -> S {
             self.0.slope(time) + self.1.slope(time)
+        }
+
+        fn gain(&self, time: S) -> S {
+            self.0.gain(time) + self.1.gain(time)
         }
 
         fn curvature_bound(&self) -> S {
@@ -89,6 +97,8 @@ pub(crate) mod check {
             let step = 1e-5;
             let slope = (piece.acceleration(time + step) - piece.acceleration(time - step)) / (2.0 * step);
             assert!((slope - piece.slope(time)).abs() < 1e-6 * (1.0 + slope.abs()), "slope at {time}");
+            let [gain] = integral(0.0, time, 0.05, |t| [piece.acceleration(t)]);
+            assert!((gain - piece.gain(time)).abs() < 1e-14, "gain at {time}: {gain} {}", piece.gain(time));
             let second = (piece.slope(time + step) - piece.slope(time - step)) / (2.0 * step);
             assert!(second.abs() <= piece.curvature_bound() * (1.0 + 1e-6) + 1e-6, "curvature at {time}");
             let mut coefficients = [0.0; 24];

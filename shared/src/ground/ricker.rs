@@ -41,6 +41,12 @@ impl<S: Real> GroundSegment<S> for Ricker<S> {
         self.amplitude * self.rate * (S::of(4.0) * (x * x * x) - S::of(6.0) * x) * gaussian
     }
 
+    fn gain(&self, time: S) -> S {
+        // d/dx x e^{−x²} = (1 − 2x²) e^{−x²}.
+        let [(from, first), (to, last)] = [S::ZERO, time].map(|time| self.gaussian(time));
+        self.amplitude * (to * last - from * first) / self.rate
+    }
+
     fn curvature_bound(&self) -> S {
         // |d²/dx² (1 − 2x²)e^{−x²}| = |−6 + 24x² − 8x⁴| e^{−x²} is largest at x = 0, where it is 6.
         S::of(6.0) * self.amplitude.abs() * (self.rate * self.rate)

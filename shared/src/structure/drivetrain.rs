@@ -36,6 +36,11 @@ impl Support {
         Support { amplification: factor, own_motion: false }
     }
 
+    /// Whether it moves otherwise than the ground.
+    pub fn moves(&self) -> bool {
+        *self != Support::default()
+    }
+
     /// One of its own motion.
     pub const MOVING: Support = Support { amplification: 1.0, own_motion: true };
 }
@@ -179,8 +184,8 @@ impl Drivetrain {
         }
         let amplification = support.amplification;
         require("support_amplification", amplification, (-10.0..=10.0).contains(&amplification), "from -10 to 10")?;
-        if *support != Support::default() {
-            // Their friction and their flywheels' speeds are relative to the support, whose velocity the equations do not have.
+        if support.moves() {
+            // Only ideal devices without friction know its speed ([`crate::drivetrain::on_support`]).
             let asks = self.engagement != Engagement::Ideal
                 || *flywheel != FlywheelLosses::default()
                 || rack.viscous != 0.0

@@ -13,19 +13,20 @@ impl Model {
         self.rack_speed(&self.pose(state.side(), state.rotation()), state.velocity())
     }
 
-    /// Locked flywheels have the rack's speed.
+    /// Locked flywheels have the rack's speed, against that of the support.
     pub fn follow_rack(&self, state: &mut State) {
-        let rack = self.rack_now(state);
+        let speed = self.terminals_now(state);
         for i in 0..2 {
             if state.wheels[i].link == Link::Locked {
-                state.values[SPIN + i] = rack;
+                state.values[SPIN + i] = speed;
             }
         }
     }
 
-    /// Commands by Eq. 10 for the present direction, and all that is due. Returns whether a clutch moved.
+    /// Commands by Eq. 10 for the present direction of block or terminals, and all that is due. Returns whether a clutch moved.
     pub fn command(&self, state: &mut State) -> bool {
-        if let Some(direction) = state.direction() {
+        let followed = if self.follows_terminals() { Some(state.terminals) } else { state.direction() };
+        if let Some(direction) = followed {
             let resists = state.drive == direction;
             for i in 0..2 {
                 give(&self.device, state, i, resists && i == wheel_for(direction));
@@ -140,8 +141,11 @@ impl Model {
         }
     }
 
-    /// The clutches of a standing block are open and not commanded.
+    /// The clutches of a standing block are open and not commanded, but for those that follow the terminals.
     pub fn part_at_rest(&self, state: &mut State) {
+        if self.follows_terminals() {
+            return;
+        }
         for i in 0..2 {
             if self.device.is_commanded() {
                 let command = &mut state.wheels[i].command;

@@ -14,7 +14,7 @@ use crate::device::{Coupling, Device};
 use crate::ground::Ground;
 use crate::mode::{BlockMode, Link, State, Wheel};
 use crate::scatter::Scatter;
-use crate::step::{BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, TWIST, VELOCITY};
+use crate::step::{BEARING, BRAKE, CLUTCH, INPUT, KINEMATICS, RACK, ROTATION, SIZE, SPIN, SUPPORT, TWIST, VELOCITY};
 use crate::support::Support;
 
 /// Block, device and ground.
@@ -95,15 +95,19 @@ impl Model {
         (locked * inertance * ratio - guided * (1.0 - ratio)) * pose.lever * shaking.support / self.block.size
     }
 
-    /// Acceleration of the terminals by weight, ground and support alone, over R: the `a` of Eq. 10, with the flywheel that it would engage
-    /// on the rack, which does not change its sign.
+    /// Acceleration of the terminals against one another by weight, ground and support alone, over R: the `a` of Eq. 10. A flywheel that is
+    /// engaged does not change its sign. Where the block stands only the support moves.
     pub fn drive(&self, state: &State, shaking: Shaking) -> f64 {
+        let of_support = self.device.support * shaking.support / self.block.size;
+        if state.block == BlockMode::Standing && self.support.moves() {
+            return -of_support;
+        }
         let pose = self.pose(state.side(), state.rotation());
         let centrifugal = self.device.consistent * pose.slope * state.velocity().powi(2);
-        let push = self.push(&pose, shaking) + self.support_push(&pose, shaking, 1.0);
+        let push = self.push(&pose, shaking) + self.support_push(&pose, shaking, 0.0);
         let inertia = self.block.inertia + self.device.guided * pose.lever * pose.lever;
         let acceleration = (push - self.device.guided * pose.lever * centrifugal) / inertia;
-        pose.lever * acceleration + centrifugal
+        pose.lever * acceleration + centrifugal - of_support
     }
 
     /// ẋ, the speed of the rack, m/s.
@@ -218,7 +222,7 @@ impl Model {
         for (i, wheel) in state.wheels.iter().enumerate() {
             let (mut spin, twist) = (values[SPIN + i], values[TWIST + i]);
             if wheel.link == Link::Locked {
-                (locked, spin) = (locked + 1.0, rack);
+                (locked, spin) = (locked + 1.0, rack - values[SUPPORT]);
             } else if device.inertance > 0.0 {
                 let relative = rack - spin;
                 let force = self.link_force(wheel, twist, relative, time);
@@ -238,7 +242,7 @@ impl Model {
             rates[ROTATION] = velocity;
             rates[VELOCITY] = self.acceleration(&pose, velocity, shaking, direction, locked, total);
             let ground = shaking.horizontal * (pose.cos + device.guided * pose.lever) + shaking.vertical * pose.sin;
-            rates[INPUT] = (self.support_push(&pose, shaking, locked) - ground / self.block.size) * velocity;
+            rates[INPUT] = (self.support_push(&pose, shaking, 0.0) - ground / self.block.size) * velocity;
             rates[RACK] = over * (device.rack_viscous * rack + device.rack_dry * direction) * rack;
             if device.mesh > 0.0 && locked > 0.0 {
                 let held = self.locked_force(&pose, velocity, rates[VELOCITY], direction);
@@ -246,6 +250,15 @@ impl Model {
             }
             let moving = device.guided + locked * device.inertance;
             rates[KINEMATICS] = (1.0 - device.consistent) * moving * pose.lever * pose.slope * velocity.powi(3);
+        }
+        if self.support.moves() {
+            // The support's power on the flywheels, whose speed is ẋ − z.
+            let (pulled, speed) = (device.support * shaking.support, values[SUPPORT]);
+            let held = locked * device.inertance * (self.rack_acceleration(&pose, velocity, rates[VELOCITY]) - pulled);
+            rates[SUPPORT] = pulled;
+            rates[INPUT] -= over * held * speed;
+            let left_out = (1.0 - device.consistent) * locked * device.inertance * pose.slope * velocity * velocity;
+            rates[KINEMATICS] -= left_out * speed / self.block.size;
         }
         rates
     }

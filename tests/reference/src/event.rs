@@ -24,6 +24,7 @@ impl Model {
             }
             Guard::Overturn => state.block = BlockMode::Overturned,
             Guard::Command => state.drive = -state.drive,
+            Guard::Terminals => state.terminals = -state.terminals,
             Guard::Load => {
                 state.load = -state.load;
                 return;
@@ -88,6 +89,7 @@ impl Model {
         state.values[IMPACT] += before - energy(self, state);
         let half = 0.5 * self.device.inertance / (self.block.size * self.block.size);
         let taken = [0, 1].map(|i| half * (spins[i] * spins[i] - state.spin(i) * state.spin(i)));
+        self.take_terminals(state);
         self.look_at_drive(state, shaking);
         if state.velocity().abs() <= self.rest_speed {
             let mut rest = state.clone();
@@ -95,6 +97,7 @@ impl Model {
             rest.values[VELOCITY] = 0.0;
             self.follow_rack(&mut rest);
             rest.values[IMPACT] += before - energy(self, &rest);
+            self.take_terminals(&mut rest);
             rest.block = BlockMode::Standing;
             self.part_at_rest(&mut rest);
             self.settle(&mut rest, shaking);
@@ -124,7 +127,7 @@ impl Model {
             }
             // Commands need a direction of motion; those that were given before have their clocks.
             if state.direction().is_none() {
-                self.carry_out(state);
+                self.command_at_rest(state, shaking);
             }
             self.settle_springs(state);
             self.catch_up(state);
@@ -223,7 +226,7 @@ impl Model {
     }
 
     /// The direction in which a block at θ̇ = 0 accelerates, or 0.
-    fn way_of_block(&self, state: &State, shaking: Shaking) -> f64 {
+    pub fn way_of_block(&self, state: &State, shaking: Shaking) -> f64 {
         let goes = |way: f64| way * solve(self, state, shaking, way).acceleration > 0.0;
         [1.0, -1.0].into_iter().find(|way| goes(*way)).unwrap_or(0.0)
     }
@@ -236,9 +239,11 @@ impl Model {
             (side, going.drive, going.armed) = (direction, direction, true);
         }
         going.block = BlockMode::Rocking { side, direction };
-        if state.rotation() == 0.0 && self.support.moves() {
-            // What lifts the block with open clutches is not the whole push of Eq. 10.
+        if self.follows_terminals() {
+            // What lifts the block is not what moves the terminals.
+            going.drive = state.drive;
             self.look_at_drive(&mut going, shaking);
+            self.look_at_terminals(&mut going, shaking);
         }
         if self.device.is_commanded() {
             self.command(&mut going);

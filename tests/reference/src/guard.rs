@@ -16,6 +16,8 @@ pub enum Guard {
     Overturn,
     /// Weight and ground change the sign of Eq. 10.
     Command,
+    /// ẋ = z: the terminals of a device on a support that moves turn.
+    Terminals,
     /// Standing or held: what pushes exceeds what holds.
     Leave,
     /// Standing with an engaged clutch that holds it down: weight alone would hold it again.
@@ -68,10 +70,17 @@ pub fn guards(model: &Model, state: &State, shaking: Shaking) -> Vec<(Guard, f64
         }
     } else if state.block != BlockMode::Overturned {
         all.push((Guard::Leave, -model.readiness(state, shaking)));
-        let engaged = device.is_commanded() && state.wheels.iter().any(|wheel| wheel.link != Link::Open);
+        if model.follows_terminals() {
+            all.push((Guard::Command, state.drive * model.drive(state, shaking)));
+        }
+        let engaged =
+            device.is_commanded() && !model.follows_terminals() && state.wheels.iter().any(|wheel| wheel.link != Link::Open);
         if state.block == BlockMode::Standing && engaged {
             all.push((Guard::Retire, model.open_readiness(state, shaking)));
         }
+    }
+    if model.follows_terminals() {
+        all.push((Guard::Terminals, state.terminals * model.terminals_now(state)));
     }
     let moves = matches!(state.block, BlockMode::Rocking { .. });
     for (i, wheel) in state.wheels.iter().enumerate() {

@@ -34,3 +34,4 @@ pub mod sliding;
 pub mod step;
 pub mod support;
 pub mod tally;
+pub mod terminals;

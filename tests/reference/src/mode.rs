@@ -29,7 +29,7 @@ pub enum BlockMode {
 pub enum Link {
     /// Not at all.
     Open,
-    /// w = ẋ.
+    /// w = ẋ, or w = ẋ − z on a support that moves.
     Locked,
     /// Plates slip; the flywheel is pulled along with this sign.
     Slipping(f64),
@@ -67,6 +67,8 @@ pub struct State {
     pub wheels: [Wheel; 2],
     /// Sign of the terminals' acceleration by weight and ground alone (Eq. 10), as last found.
     pub drive: f64,
+    /// Sign of the speed of the terminals, as last found, where clutches follow that on a support that moves.
+    pub terminals: f64,
     /// The acceleration has come to agree with that sign, so that its zero is a change.
     pub armed: bool,
     /// Engagements commanded so far.

@@ -60,6 +60,7 @@ impl<'a> Runner<'a> {
             block,
             wheels: [wheel, other],
             drive: direction,
+            terminals: direction,
             armed: true,
             engagements: 0,
             impacts: 0,
@@ -143,6 +144,7 @@ impl<'a> Runner<'a> {
             model.look_at_drive(&mut self.state, shaking);
         }
         let shaking = self.shaking(0.0);
+        model.begin_terminals(&mut self.state, shaking);
         model.settle(&mut self.state, shaking);
         // The books begin with what the first instant has left.
         self.state.values[INPUT..].fill(0.0);
@@ -233,8 +235,9 @@ impl<'a> Runner<'a> {
             let jumps = [after.horizontal - before.horizontal, after.vertical - before.vertical, after.support - before.support];
             let jump: f64 = jumps.iter().map(|jump| jump.abs()).sum();
             if jump > 1e-9 {
-                if self.state.velocity() != 0.0 {
+                if self.state.velocity() != 0.0 || model.follows_terminals() {
                     model.look_at_drive(&mut self.state, after);
+                    model.look_at_terminals(&mut self.state, after);
                 }
                 model.settle(&mut self.state, after);
             }

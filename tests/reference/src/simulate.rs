@@ -72,8 +72,8 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     // Nothing but friction holds a block any more that leans outward beyond its balance, and springs pull at it.
     let state = runner.state();
     let balance = match (model.block.geometry, model.device.coupling) {
-        (Geometry::Slender, _) => model.block.slenderness,
-        (Geometry::Full, Coupling::Elastic { .. }) => f64::INFINITY,
+        (_, Coupling::Elastic { .. }) => f64::INFINITY,
+        (Geometry::Slender, _) => model.block.slenderness + held(&model.block, &model.device) / GRAVITY,
         (Geometry::Full, _) => model.block.slenderness + (held(&model.block, &model.device) / GRAVITY).atan(),
     };
     let beyond = state.rotation().abs() > balance && state.rotation() * state.velocity() > 0.0;

@@ -1,7 +1,7 @@
 //! What is integrated, and one step of it.
 
 /// Unknowns and integrals.
-pub const SIZE: usize = 14;
+pub const SIZE: usize = 15;
 /// θ, rad.
 pub const ROTATION: usize = 0;
 /// θ̇, rad/s.
@@ -10,22 +10,24 @@ pub const VELOCITY: usize = 1;
 pub const SPIN: usize = 2;
 /// z of both clutches: twist as travel of the rack, m.
 pub const TWIST: usize = 4;
-/// Work of the ground; this and what follows in 1/s², energies over mR².
-pub const INPUT: usize = 6;
+/// z, the speed of the terminal on a support that moves against the ground, as travel of the rack, m/s: ż = r(ü_s − ü_g).
+pub const SUPPORT: usize = 6;
+/// Work of the ground and the support; this and what follows in 1/s², energies over mR².
+pub const INPUT: usize = 7;
 /// Lost to friction of the rack.
-pub const RACK: usize = 7;
+pub const RACK: usize = 8;
 /// Lost to the bearings.
-pub const BEARING: usize = 8;
+pub const BEARING: usize = 9;
 /// Lost to brakes, and to ideal clutches that stop a flywheel.
-pub const BRAKE: usize = 9;
+pub const BRAKE: usize = 10;
 /// Lost to plates, dampers, jolts and springs let go.
-pub const CLUTCH: usize = 10;
+pub const CLUTCH: usize = 11;
 /// What the paper's kinematics (Eq. 11) add, having left the θ̇² term out.
-pub const KINEMATICS: usize = 11;
+pub const KINEMATICS: usize = 12;
 /// Lost to impacts.
-pub const IMPACT: usize = 12;
+pub const IMPACT: usize = 13;
 /// What ideal clutches add by engaging a stopped flywheel at speed.
-pub const CREATED: usize = 13;
+pub const CREATED: usize = 14;
 
 /// One step of the classical Runge-Kutta method of order 4, over a time `h` after the start; `rates` gets times after it.
 pub fn step(start: &[f64; SIZE], h: f64, rates: impl Fn(f64, &[f64; SIZE]) -> [f64; SIZE]) -> [f64; SIZE] {

@@ -59,7 +59,7 @@ impl Support {
 
     /// Whether it moves against the ground.
     pub fn moves(&self) -> bool {
-        !matches!(self, Support::Ground)
+        !matches!(self, Support::Ground | Support::Beyond(0.0))
     }
 
     /// ü_s − ü_g (m/s²) at `time` in the piece that holds `within`, while the ground accelerates by `ground`.

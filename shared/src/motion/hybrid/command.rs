@@ -80,14 +80,11 @@ impl<S: Real> HybridSystem<S> {
             if answer > 0 {
                 self.show_instant(state, time, observer);
             }
-            let motion = &state.motion;
-            let resists = motion.direction == motion.terminal_acceleration_sign;
-            let wheel = wheel_for(motion.direction);
+            let way = state.device.terminals.map_or(state.motion.direction, |terminals| terminals.direction);
+            let resists = way == state.motion.terminal_acceleration_sign;
             // A block that friction holds has no motion to resist: its commands stay.
             if !self.actuator.controlled && !state.held {
-                for index in 0..2 {
-                    self.give(state, index, resists && index == wheel);
-                }
+                self.ask(state, resists.then_some(way));
             }
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
             let mut moved = false;
@@ -175,6 +172,14 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
+    /// Commands for a motion in the direction `way`, which the clutch of that direction is to resist; none is to be engaged without one.
+    pub(super) fn ask(&self, state: &mut HybridState<S>, way: Option<Sign>) {
+        let wheel = way.map(wheel_for);
+        for index in 0..2 {
+            self.give(state, index, wheel == Some(index));
+        }
+    }
+
     /// A command to one clutch, if it is new.
     fn give(&self, state: &mut HybridState<S>, index: usize, engage: bool) {
         let device = &mut state.device;
@@ -234,8 +239,9 @@ impl<S: Real> HybridSystem<S> {
                 at.open(index);
             }
         });
-        // What the acceleration of Eq. 10 is does not depend on the clutches.
-        state.fresh[1..].fill(false);
+        // The acceleration of Eq. 10, and the velocity, do not depend on the clutches.
+        let flywheels = if state.device.terminals.is_some() { 2 } else { 1 };
+        state.fresh[flywheels..].fill(false);
     }
 
     /// Time until something happens by the clock alone, s; none if nothing is due.

@@ -60,7 +60,12 @@ impl<S: Real> HybridSystem<S> {
                 && matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Viscous)
                 && (wheel.pending < S::ZERO || wheel.pending > duration)
         });
-        state.motion.phase == Phase::Rest && waits && self.transmission.parameters.rise_time <= S::ZERO && duration > S::ZERO
+        let carried = state.device.terminals.is_some();
+        state.motion.phase == Phase::Rest
+            && waits
+            && !carried
+            && self.transmission.parameters.rise_time <= S::ZERO
+            && duration > S::ZERO
     }
 
     /// Lets `duration` (s) pass for a block that [`HybridSystem::waits`] on ground that [`Footing::holds`], up to where the ground has the

@@ -66,7 +66,8 @@ impl<S: Real> HybridSystem<S> {
         observer.event(Event::Rest, ends, &state.motion);
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);
-        self.stand(state, &|t| shaking.at(time + t), time, ends, observer);
+        self.drive_at_rest(state, shaking, (time, ends), observer);
+        self.stand(state, shaking, time, ends, observer);
         ends
     }
 
@@ -102,6 +103,7 @@ impl<S: Real> HybridSystem<S> {
             state.device.wheels[0].spin = self.body.to_terminal(&configuration, state.motion.velocity);
         }
         self.look_at_drive(state);
+        self.look_at_terminals(state);
         if state.motion.velocity == S::ZERO {
             self.turned(state);
         }
@@ -120,7 +122,9 @@ impl<S: Real> HybridSystem<S> {
         let size = largest(ground).larger(S::EPSILON);
         if state.motion.phase == Phase::Rocking && jump > size * S::EPSILON * S::of(4096.0) {
             self.look_at_drive(state);
+            let stood = state.fresh[1];
             state.fresh = [false; GUARDS];
+            self.terminals_after_jump(state, stood);
             if state.motion.velocity == S::ZERO {
                 self.try_to_set_off(state, S::ZERO, observer);
             }

@@ -32,9 +32,10 @@ impl<S: Real> HybridSystem<S> {
     #[inline]
     pub fn spins_now(&self, state: &HybridState<S>, configuration: &AnyConfiguration<S>) -> [S; 2] {
         let own: [S; UNKNOWNS] = state.device.unknowns();
-        let known = self.transmission.traits().unknowns;
+        let known = if state.device.terminals.is_some() { 0 } else { self.transmission.traits().unknowns };
+        let support = state.device.terminals.map_or(S::ZERO, |terminals| terminals.support);
         core::array::from_fn(|i| match state.device.wheels[i].coupling {
-            Coupling::Locked => self.body.to_terminal(configuration, state.motion.velocity),
+            Coupling::Locked => self.body.to_terminal(configuration, state.motion.velocity) - support,
             _ if i < known => own[i],
             _ => S::ZERO,
         })

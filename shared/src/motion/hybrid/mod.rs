@@ -21,13 +21,14 @@ mod seen;
 pub mod series;
 mod standing;
 pub mod steps;
+mod terminals;
 mod threshold;
 mod uneventful;
 
 pub use command::Actuator;
 
 use crate::drivetrain::any_transmission::AnyTransmission;
-use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients, UNKNOWNS};
+use crate::drivetrain::clutch_state::{Coupling, DeviceState, GUARDS, Guard, ModeCoefficients, Terminals, UNKNOWNS};
 use crate::drivetrain::transmission::{AnyPoint, EvaluationPoint, EventContext};
 use crate::equation::Accelerations;
 use crate::equation::any_body::AnyBody;
@@ -123,7 +124,8 @@ enum End {
 impl<S: Real> HybridSystem<S> {
     /// A block that stands, with an idle device.
     pub fn at_rest(&self) -> HybridState<S> {
-        let mut state = HybridState { device: DeviceState::at_rest(), ..HybridState::default() };
+        let terminals = self.transmission.traits().on_support.then(Terminals::default);
+        let mut state = HybridState { device: DeviceState { terminals, ..DeviceState::at_rest() }, ..HybridState::default() };
         self.part_at_rest(&mut state, S::ZERO, &mut ());
         state
     }
@@ -183,11 +185,11 @@ impl<S: Real> HybridSystem<S> {
         }
         *events += 1;
         if state.motion.phase == Phase::Rest {
-            let stop = self.stands_until(state, *time, duration);
+            let stop = self.drive_at_rest(state, shaking, (*time, duration), observer);
+            let stop = self.stands_until(state, *time, stop);
             let uplift = self.uplift_time(state, shaking, *time, stop);
             let until = uplift.map_or(stop, |(at, _)| at);
-            let from = *time;
-            self.stand(state, &|t| shaking.at(from + t), from, until, observer);
+            self.stand(state, shaking, *time, until, observer);
             *time = until;
             if let Some((_, crossing)) = uplift {
                 self.uplift(state, shaking.at(until), until, crossing, observer);
@@ -464,6 +466,13 @@ impl<S: Real> HybridSystem<S> {
             parameters.rack_coupling + S::count(state.device.locked()) * parameters.inertance
         };
         device.spent.kinematics = self.body.paper_power(side.unit(), &point.configuration, at.velocity, coupling);
+        if state.device.terminals.is_some() && at.velocity != S::ZERO {
+            // −κ k ℓ' θ̇² v: flywheels turn with the rack on its support.
+            let flywheels = S::count(state.device.locked()) * parameters.inertance;
+            let share = self.body.paper_power(side.unit(), &point.configuration, at.velocity, flywheels);
+            let rack = self.body.to_terminal(&point.configuration, at.velocity);
+            device.spent.kinematics = device.spent.kinematics - share * (at.unknowns[0] / rack);
+        }
         Snapshot {
             motion: Motion { rotation: at.rotation, velocity: at.velocity, acceleration },
             ground: at.ground,

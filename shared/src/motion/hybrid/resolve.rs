@@ -5,7 +5,7 @@ use crate::drivetrain::any_transmission::{AnyTransmission, TransmissionKind};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::math::scalar::Real;
 use crate::structure::device::{DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement, Rack, Support};
+use crate::structure::drivetrain::{Drivetrain, Engagement, Rack};
 use crate::structure::error::{ParameterError, require};
 use crate::structure::restitution::{Restitution, momentum_balance};
 use crate::structure::{COUNTED_SPEED, Structure};
@@ -68,10 +68,12 @@ impl Drivetrain {
     fn transmission(&self, kind: DeviceKind) -> TransmissionKind {
         let Drivetrain { engagement, flywheel, rack, support, .. } = self;
         let friction = *rack != Rack::default() || flywheel.viscous_rate != 0.0 || flywheel.dry_deceleration != 0.0;
-        let friction = friction || *support != Support::default();
+        let on_support = support.moves();
         let (loaded, dragged) = (rack.load_friction != 0.0, flywheel.drag_rate != 0.0);
         match (kind, engagement) {
             (DeviceKind::None, _) => TransmissionKind::Alone,
+            (DeviceKind::Inerter, _) if on_support => TransmissionKind::SingleOnSupport,
+            (DeviceKind::ClutchedPair, _) if on_support => TransmissionKind::IdealOnSupport,
             (DeviceKind::Inerter, Engagement::Ideal | Engagement::Rigid) if loaded => TransmissionKind::LoadedSingle,
             (DeviceKind::ClutchedPair, Engagement::Ideal) if loaded => TransmissionKind::LoadedIdeal,
             (DeviceKind::ClutchedPair, Engagement::Rigid) if loaded => TransmissionKind::LoadedRigid,

@@ -37,8 +37,8 @@ impl<S: Real, A: ModeOutput<S>> DeviceOutput<S> for Seen<'_, S, A> {
 pub(super) struct Still<'a, S> {
     pub(super) machine: &'a HybridSystem<S>,
     pub(super) state: &'a HybridState<S>,
-    /// The accelerations a time (s) after the start.
-    pub(super) ground: &'a dyn Fn(S) -> Accelerations<S>,
+    /// The accelerations a time (s) after the start, and what the support's speed has gained until then.
+    pub(super) ground: &'a dyn Fn(S) -> (Accelerations<S>, S),
     pub(super) length: S,
 }
 
@@ -61,7 +61,11 @@ impl<S: Real> DeviceOutput<S> for Still<'_, S> {
     fn snapshot(&self, time: S) -> Snapshot<S> {
         let mut state = *self.state;
         self.machine.idle(&mut state, time);
-        let place = Place { ground: (self.ground)(time), ..self.machine.place(&state) };
+        let (ground, gain) = (self.ground)(time);
+        if let Some(terminals) = &mut state.device.terminals {
+            terminals.support = terminals.support + gain;
+        }
+        let place = Place { ground, ..self.machine.place(&state) };
         self.machine.snapshot(&self.machine.law(&state), &state, &place, S::ZERO)
     }
 }

@@ -31,13 +31,14 @@ impl<S: Real> HybridSystem<S> {
         standing
     }
 
-    /// The clutches of a standing block are open, but for those that a controller holds; a device without clutches stays engaged.
+    /// The clutches of a standing block are open, but for those that a controller holds or that follow a support of its own motion; a device
+    /// without clutches stays engaged.
     pub(super) fn part_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         if self.transmission.traits().permanent {
             state.device.wheels[0].coupling = self.transmission.permanent_link();
             return;
         }
-        if self.actuator.controlled {
+        if self.actuator.controlled || state.device.terminals.is_some() {
             return;
         }
         self.with_instant(state, time, observer, |_, at| {
@@ -65,7 +66,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// Observation of block and device between two changes at one instant.
     pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
-        self.show_still(state, &|_| state.ground, time, S::ZERO, observer);
+        self.show_still(state, &|_| (state.ground, S::ZERO), time, S::ZERO, observer);
     }
 
     /// Observation of a block that does not move, from `time` on for `length` (s), and of its device.
@@ -73,7 +74,7 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn show_still(
         &self,
         state: &HybridState<S>,
-        ground: &dyn Fn(S) -> Accelerations<S>,
+        ground: &dyn Fn(S) -> (Accelerations<S>, S),
         time: S,
         length: S,
         observer: &mut dyn Observer<S>,
@@ -103,34 +104,40 @@ impl<S: Real> HybridSystem<S> {
         slow.fold(end, Real::smaller)
     }
 
-    /// The block stands from `time` to `end`, and flywheels coast.
+    /// The block stands from `time` to `end`, flywheels coast, or follow a support of its own motion.
     #[inline(never)]
     pub(super) fn stand(
         &self,
         state: &mut HybridState<S>,
-        ground: &dyn Fn(S) -> Accelerations<S>,
+        shaking: Shaking<'_, S>,
         time: S,
         end: S,
         observer: &mut dyn Observer<S>,
     ) {
-        let spins = |state: &HybridState<S>| state.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO);
-        if spins(state) {
+        let carried = state.device.terminals.is_some();
+        let turns = |state: &HybridState<S>| carried || state.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO);
+        // Up to half a wave of the support, in pieces that are close to polynomials.
+        let longest = if carried { (end - time) * S::of(0.25) } else { end - time };
+        if turns(state) {
             let (mut now, mut shown) = (time, *state);
-            while now < end && spins(&shown) {
-                let length = self.until_stop(&shown, end - now);
-                self.show_still(&shown, &|t| ground(now - time + t), now, length, observer);
+            while now < end && turns(&shown) {
+                let length = self.until_stop(&shown, longest.smaller(end - now));
+                let ground = |t: S| (shaking.at(now + t), self.support_gain(&shown, shaking, now, now + t));
+                self.show_still(&shown, &ground, now, length, observer);
                 self.idle(&mut shown, length);
+                self.carry(&mut shown, shaking, now, now + length);
                 now = now + length;
             }
         }
         self.idle(state, end - time);
+        self.carry(state, shaking, time, end);
     }
 
     /// How long the clutches of a standing block stay as they are, from `time` to `duration` at most.
     pub(super) fn stands_until(&self, state: &mut HybridState<S>, time: S, duration: S) -> S {
         let parameters = &self.transmission.parameters;
         let pushed = self.transmission.slips_viscously() || parameters.drag > S::ZERO;
-        if !self.actuator.controlled && !pushed {
+        if !self.actuator.controlled && !pushed && state.device.terminals.is_none() {
             return duration;
         }
         let mut stop = self.until_due(state, time, duration);
@@ -184,10 +191,11 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
-        if self.transmission.parameters.support_moves() {
+        if state.device.terminals.is_some() {
             // What lifts the block is not what it would meet with a flywheel engaged.
             self.look_at_drive(state);
             state.fresh[0] = false;
+            self.look_at_terminals(state);
         }
         observer.event(Event::Uplift, time, &state.motion);
     }

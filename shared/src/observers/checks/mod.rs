@@ -31,11 +31,14 @@ use toe::Toe;
 /// The quantities whose largest values are sought along every interval: friction, −V, the force of each flywheel, that on the support.
 const QUANTITIES: usize = 5;
 
+/// The first that a standing block has too: its device may hang on a support that moves.
+const FORCES: usize = 2;
+
 /// The last of them.
 const SUPPORT: usize = 4;
 
-/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks; one that stands asks for
-/// a friction of |ü_g/g|/(1 + v̈_g/g), which grows to tan α before it rocks.
+/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks, but for forces of the device, which
+/// a support of its own motion causes at rest too; one that stands asks for a friction of |ü_g/g|/(1 + v̈_g/g), which grows to tan α before it rocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
     /// Time of the present ground segment's start from the origin, s; the caller sets it.
@@ -184,7 +187,7 @@ impl<S: Real> Checks<S> {
             let (time, value) = largest(span, values, self.report.record(quantity), reading);
             self.report.raise(quantity, value, start + time);
         }
-        if self.first == SUPPORT {
+        if self.first >= FORCES {
             return;
         }
         if self.report.contact_lost.is_none()
@@ -210,6 +213,14 @@ impl<S: Real> Observer<S> for Checks<S> {
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.impulses.velocity = Some(interval.last.velocity);
         self.impulses.engaged = engaged.map(u32::from).iter().sum();
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        if interval.to > interval.from {
+            let mut standing = Checks { first: self.first.max(FORCES), travels: false, ..*self };
+            standing.look(output, interval);
+            self.report = standing.report;
+        }
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {

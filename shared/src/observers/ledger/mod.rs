@@ -5,11 +5,11 @@
 //!
 //! initial + input + created = kinetic + potential + stored + Σ dissipated,
 //!
-//! input = −p² ∫ [ (ü_g/g)(cos δ + (m_rack/m − N σ n (f − 1)) ℓ) + (v̈_g/g) sin δ ] θ̇ dt,  kinetic = ½θ̇²,
+//! input = −p² ∫ [ (ü_g/g)(cos δ + (1 + (1 − n)(f − 1)) m_rack/m ℓ) + (v̈_g/g) sin δ ] θ̇ dt − ∫ F z dt,  kinetic = ½θ̇²,
 //! potential = p² (cos δ − cos α);
 //!
-//! N flywheels are engaged, on a support that moves with f times the ground's acceleration, through a pulley n. Energies are relative to
-//! the ground (Uang and Bertero 1990), those of flywheels too, so that the work of such a support is that of its inertia force on them.
+//! The support moves by f times the ground's acceleration, and a guided rack behind the pulley n rides on it. F is the force of the flywheels on
+//! the rack, and z the speed of a support that moves otherwise than the ground ([`crate::drivetrain::on_support`]), against which they turn. Energies are relative to the ground (Uang and Bertero 1990).
 //!
 //! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every interval by Gauss-Legendre
 //! quadrature, with an error far below rounding on a series; what jumps at an event goes to what caused it. No entry is
@@ -51,10 +51,10 @@ pub struct Account {
     pub mass_ratio: f64,
     /// Mass of a guided rack over the block's.
     pub rack_mass_ratio: f64,
-    /// n (f − 1): acceleration of the terminals by the support's own motion over ü_g.
-    pub support: f64,
-    /// n of a support of its own motion: acceleration of the terminals by it over ü_s − ü_g; else 0.
-    pub own_support: f64,
+    /// Acceleration of a guided rack by its support beyond the ground's, over that, while the block stands: (1 − n)(f − 1).
+    pub rack_riding: f64,
+    /// The support moves otherwise than the ground.
+    pub on_support: bool,
 }
 
 /// Observer that sums the [`Entries`] of a motion.
@@ -69,8 +69,7 @@ pub struct Ledger<S> {
     slenderness: S,
     coupling: S,
     rack: S,
-    support: S,
-    own_support: S,
+    on_support: bool,
     /// Potential energy at θ = α, which a block must pass to overturn by itself: p²(1 − cos α), slender ½p²α²; 1/s². It stands
     /// for mgR(1 − cos α) joules.
     pub barrier: S,
@@ -131,9 +130,8 @@ impl<S: Real> Ledger<S> {
             frequency_squared: S::of(p2),
             slenderness: S::of(alpha),
             coupling: S::of(account.mass_ratio / block.inertia_ratio()),
-            rack: S::of(account.rack_mass_ratio),
-            support: S::of(account.mass_ratio * account.support),
-            own_support: S::of(account.mass_ratio * account.own_support),
+            rack: S::of(account.rack_mass_ratio * (1.0 + account.rack_riding)),
+            on_support: account.on_support,
             barrier: S::ZERO,
             last: None,
             since: Since::default(),
@@ -155,12 +153,15 @@ impl<S: Real> Ledger<S> {
     /// Work per time of ground and support on block, rack and flywheels.
     fn input(&self, side: Sign, snapshot: &Snapshot<S>) -> S {
         let (sin, cos) = self.geometry.sin_cos(side.times(self.slenderness) - snapshot.motion.rotation);
-        let [horizontal, vertical, support] = snapshot.ground;
+        let [horizontal, vertical, _] = snapshot.ground;
         let block = (horizontal * cos + vertical * sin) * snapshot.motion.velocity;
-        let engaged = snapshot.device.engaged.map(u32::from).iter().sum();
-        let rack = self.rack - S::count(engaged) * self.support;
-        let own = S::count(engaged) * self.own_support * support;
-        -self.frequency_squared * (block + (rack * horizontal - own) * snapshot.terminal_velocity)
+        let ground = self.frequency_squared * (block + self.rack * horizontal * snapshot.terminal_velocity);
+        if !self.on_support {
+            return -ground;
+        }
+        let device = &snapshot.device;
+        let carried = |i: usize| device.force[i] * (snapshot.terminal_velocity - device.spin[i]);
+        -(ground + carried(0) + carried(1))
     }
 
     fn balance(&self, side: Sign, snapshot: &Snapshot<S>) -> Balance<S> {
@@ -173,7 +174,11 @@ impl<S: Real> Ledger<S> {
             springs: snapshot.device.sprung,
             flywheel,
             engaged: snapshot.device.engaged,
-            locked: snapshot.device.spin.map(|spin| spin == snapshot.terminal_velocity),
+            // On a support of its own motion what is engaged is locked.
+            locked: core::array::from_fn(|i| {
+                let Snapshot { device, terminal_velocity, .. } = snapshot;
+                if self.on_support { device.engaged[i & 1] } else { device.spin[i & 1] == *terminal_velocity }
+            }),
         }
     }
 
@@ -211,6 +216,10 @@ impl<S: Real> Ledger<S> {
         let entries = &mut self.entries;
         entries.impact = entries.impact + last.kinetic + last.potential + last.rack;
         (last.kinetic, last.potential, last.rack) = (S::ZERO, S::ZERO, S::ZERO);
+        if self.on_support {
+            // Flywheels go on with the support.
+            return;
+        }
         let flywheels = last.flywheel[0] + last.flywheel[1];
         match self.clutching {
             Clutching::Permanent => entries.impact = entries.impact + flywheels,
@@ -271,7 +280,8 @@ impl<S: Real> Observer<S> for Ledger<S> {
             Event::Impact => {
                 let left = if last.kinetic > S::ZERO { kinetic / last.kinetic } else { S::ONE };
                 // An ideal clutch lets go at the impact, or holds on: the next interval shows.
-                let device = last.slow(left, matches!(self.clutching, Clutching::Permanent | Clutching::Rigid));
+                let with_flywheels = !self.on_support && matches!(self.clutching, Clutching::Permanent | Clutching::Rigid);
+                let device = last.slow(left, with_flywheels);
                 self.entries.impact = self.entries.impact + last.kinetic - kinetic + device;
                 last.kinetic = kinetic;
                 self.since.impact = true;

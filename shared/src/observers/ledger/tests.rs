@@ -238,7 +238,7 @@ fn snapshot(rotation: f64, velocity: f64, spin: f64, engaged: bool) -> Snapshot<
 
 fn scripted(clutching: Clutching, rack_mass_ratio: f64) -> Ledger<f64> {
     let block = Block::of_unit_frequency(0.3, 1.25).unwrap();
-    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio, support: 0.0, own_support: 0.0 })
+    Ledger::new(&block, Geometry::Full, &Account { clutching, mass_ratio: 0.5, rack_mass_ratio, ..Account::default() })
 }
 
 fn show(ledger: &mut Ledger<f64>, to: f64, script: impl Fn(f64) -> Snapshot<f64>) {

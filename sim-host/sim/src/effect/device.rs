@@ -2,7 +2,6 @@
 
 use sprag_shared::structure::added_mass::AddedMass;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::Support;
 use sprag_shared::structure::mount::Mount;
 
 use super::Effect;
@@ -31,7 +30,7 @@ pub const SUPPORT: Effect = Effect {
         "a flywheel feels the terminals against the support:",
         "F = m_r (ẍ − n (ü_s − ü_g)),  ẍ relative to the ground",
         "engaged, it adds κ σ ℓ n (ü_s − ü_g)/R to the push of the ground (n: the pulley's ratio);",
-        "Eq. 10 looks at the acceleration of the terminals relative to the ground with that push",
+        "Eq. 10 at the terminals, also while the block stands: engaged while v̇ v > 0,  v = ẋ − n ∫ (ü_s − ü_g) dt",
     ],
     source: "d'Alembert's force of an inerter between two moving terminals (Smith 2002); oscillator: Nigam and Jennings (1969)",
     keys: &[
@@ -45,7 +44,7 @@ pub const SUPPORT: Effect = Effect {
         "device.N.support_record.resample_to_s",
         "device.N.support_record.scale",
     ],
-    is_on: |scene, index| scene.devices[index].drivetrain.support != Support::default(),
+    is_on: |scene, index| scene.devices[index].drivetrain.support.moves(),
 };
 
 /// The θ̇² term.

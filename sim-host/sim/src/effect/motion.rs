@@ -2,7 +2,7 @@
 
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses, Support};
+use sprag_shared::structure::drivetrain::{Engagement, FlywheelLosses};
 use sprag_shared::structure::mount::Mount;
 
 use super::block::FOUNDATION;
@@ -90,7 +90,7 @@ fn forces(subject: &Subject<'_>) -> String {
 
 /// The support moves on its own.
 fn moves(subject: &Subject<'_>) -> bool {
-    subject.device.drivetrain.support != Support::default()
+    subject.device.drivetrain.support.moves()
 }
 
 fn has_bearing(flywheel: &FlywheelLosses) -> bool {

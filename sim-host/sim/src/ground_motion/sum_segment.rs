@@ -96,6 +96,15 @@ impl<S: Real> GroundSegment<S> for SumSegment<S> {
         }
     }
 
+    fn gain(&self, time: S) -> S {
+        match self {
+            SumSegment::Single(segment) => segment.gain(time),
+            SumSegment::Several(parts) => {
+                parts.iter().fold(S::ZERO, |sum, (offset, part)| sum + (part.gain(*offset + time) - part.gain(*offset)))
+            }
+        }
+    }
+
     #[inline]
     fn curvature_bound(&self) -> S {
         match self {

@@ -85,8 +85,12 @@ impl SceneDevice {
             },
             mass_ratio: loaded.device.mass_ratio,
             rack_mass_ratio: self.drivetrain.rack.guided_mass_ratio / (1.0 + self.added_mass.mass_ratio),
-            support: self.device.mount.support_ratio().unwrap_or(0.0) * (self.drivetrain.support.amplification - 1.0),
-            own_support: if self.drivetrain.support.own_motion { self.device.mount.support_ratio().unwrap_or(0.0) } else { 0.0 },
+            rack_riding: self
+                .device
+                .mount
+                .support_ratio()
+                .map_or(0.0, |n| (1.0 - n) * (self.drivetrain.support.amplification - 1.0)),
+            on_support: self.drivetrain.support.moves(),
         }
     }
 }

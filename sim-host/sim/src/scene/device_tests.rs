@@ -304,7 +304,7 @@ fn supports_that_move_are_refused_where_their_velocity_counts() {
             ("rack.dry_friction_ratio=0.1", "rack"),
         ] {
             let item = format!("device.2.{item}");
-            refused(&[moves, &[&item]].concat(), &[key, name, "only its acceleration is known"]);
+            refused(&[moves, &[&item]].concat(), &[key, name, "only ideal devices without friction"]);
         }
     }
 }

@@ -82,7 +82,7 @@ impl DeviceTable {
         Some(Oscillator { frequency_hz, damping_ratio })
     }
 
-    /// Where it moves on its own, friction and flywheels with a speed of their own would need its velocity too.
+    /// Where it moves on its own, the device is ideal and without friction.
     pub(super) fn support(&self, drivetrain: &Drivetrain, device: &Device, key: &KeyOf<'_>) -> Result<Support, SceneError> {
         match (self.support_frequency_hz, self.support_damping_ratio) {
             (Some(_), None) => {
@@ -116,8 +116,7 @@ impl DeviceTable {
         ];
         match moved.iter().find(|(_, is_on)| *is_on) {
             Some((name, _)) => refused(&format!(
-                "friction and flywheels with a speed of their own, here by {name}, move against the support, and only its \
-                 acceleration is known"
+                "only ideal devices without friction are modelled on a support of its own motion, and not {name}"
             )),
             None => Ok(support),
         }

@@ -33,8 +33,7 @@ impl Scene {
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = self.of_block();
         for (index, (table, device)) in self.file.device.iter().zip(&self.devices).enumerate() {
-            let of_device =
-                [self.of_mount(device), self.of_mass_ratio(table, device), of_coasting(table, device, index), of_support(table)];
+            let of_device = [self.of_mount(device), self.of_mass_ratio(table, device), of_coasting(table, device, index)];
             let named = |(name, reason): (String, String)| format!("{}: device.{index}.{name}{reason}", self.origin);
             warnings.extend(of_device.into_iter().flatten().map(named));
         }
@@ -137,19 +136,6 @@ fn of_coasting(table: &DeviceTable, device: &SceneDevice, index: usize) -> Optio
     Some((key.to_owned(), format!(" {given}: {reason}; {cure}")))
 }
 
-/// Clutches on a support that moves otherwise than the ground.
-fn of_support(table: &DeviceTable) -> Option<(String, String)> {
-    let (key, given) = match (table.support_amplification, table.support_frequency_hz, &table.support_record) {
-        (Some(factor), ..) if factor != 1.0 => ("support_amplification", format!(" is {}", Number(factor))),
-        (_, Some(frequency), _) => ("support_frequency_hz", format!(" is {}", Number(frequency))),
-        (.., Some(_)) => ("support_record", " is given".to_owned()),
-        _ => return None,
-    };
-    let reason = "its clutches follow the motion of the block against the ground and not against the support, so that at times an \
-                  engaged flywheel drives the block";
-    (table.kind == Kind::ClutchedPair).then(|| (key.to_owned(), format!("{given}: {reason}")))
-}
-
 /// m³.
 fn volume_if_as_deep_as_wide(block: &Block) -> f64 {
     let (sin, cos) = math::sin_cos(block.slenderness());
@@ -187,7 +173,6 @@ mod tests {
             ("device.0.engagement=overrunning", "a.toml: device.0.engagement is \"overrunning\": "),
             ("device.0.clutch.capacity_ratio=0.1", "a.toml: device.0.clutch is given: "),
             ("device.0.inertance_corner_hz=4", "a.toml: device.0.inertance_corner_hz is given: "),
-            ("device.0.support_amplification=1.2", "a.toml: device.0.support_amplification is 1.2: its clutches follow"),
         ] {
             let found: Vec<String> = match change.starts_with("block.s") {
                 // The mass is that of another size.
@@ -197,7 +182,7 @@ mod tests {
             assert!(found.len() == 1 && found[0].starts_with(start), "{change}: {found:?}");
         }
         assert_eq!(warnings(&[]), Vec::<String>::new());
-        assert_eq!(warnings(&["device.0.kind=inerter", "device.0.support_amplification=1.2"]), Vec::<String>::new());
+        assert_eq!(warnings(&["device.0.support_amplification=1.2"]), Vec::<String>::new());
     }
 
     #[test]

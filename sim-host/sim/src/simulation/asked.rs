@@ -27,7 +27,7 @@ impl<S: Real> Asked<S> {
             EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.device().account(loaded)), task.interval)
         };
         let coils = task.scene.file.checks.as_ref().is_some_and(|checks| checks.coil.is_some()) && task.device().takes_commands();
-        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(CoilUse::default) })
+        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(|| CoilUse::of(task.carried())) })
     }
 
     /// What a controller has commanded, in the place of what the clutches did.
@@ -69,6 +69,9 @@ impl<S: Real> Observer<S> for Asked<S> {
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         if let Some(energy) = &mut self.energy {
             energy.device_at_rest(output, interval);
+        }
+        if let Some(coils) = &mut self.coils {
+            coils.device_at_rest(output, interval);
         }
     }
 

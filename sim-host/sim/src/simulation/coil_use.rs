@@ -14,10 +14,16 @@ pub struct CoilUse {
     pub engaged_s: f64,
     /// Closings of both.
     pub closings: u32,
+    carried: bool,
     engaged: [bool; 2],
 }
 
 impl CoilUse {
+    /// Of a device that works while its block stands too, `carried` by a support that moves otherwise than the ground.
+    pub fn of(carried: bool) -> CoilUse {
+        CoilUse { carried, ..CoilUse::default() }
+    }
+
     /// The clutches were `engaged` for `duration` (s).
     pub fn hold(&mut self, engaged: [bool; 2], duration: f64) {
         for (before, now) in self.engaged.iter_mut().zip(engaged) {
@@ -33,7 +39,7 @@ impl CoilUse {
     }
 }
 
-/// Clutches that the motion itself switches, by Eq. 10: they are released while the block stands.
+/// Clutches that the motion itself switches, by Eq. 10: they are released while the block stands, but on a support of its own motion.
 impl<S: Real> Observer<S> for CoilUse {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -41,8 +47,12 @@ impl<S: Real> Observer<S> for CoilUse {
         self.hold(engaged, (interval.to - interval.from).to_f64());
     }
 
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.device_interval(output, interval);
+    }
+
     fn event(&mut self, event: Event, _time: S, _state: &BlockState<S>) {
-        if event == Event::Rest {
+        if event == Event::Rest && !self.carried {
             self.hold([false; 2], 0.0);
         }
     }

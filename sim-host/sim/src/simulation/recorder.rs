@@ -28,6 +28,7 @@ pub struct Recorder<'a> {
     displacement: f64,
     force_scale: f64,
     stays_engaged: bool,
+    carried: bool,
     interval: f64,
     next: u64,
     origin: f64,
@@ -49,6 +50,7 @@ impl<'a> Recorder<'a> {
             displacement: 0.0,
             force_scale,
             stays_engaged,
+            carried: false,
             interval,
             next: 0,
             origin: 0.0,
@@ -63,9 +65,14 @@ impl<'a> Recorder<'a> {
         Recorder { slides: true, ..self }
     }
 
+    /// Of a device on a support that moves otherwise than the ground, which works while the block stands.
+    pub fn carried(self, carried: bool) -> Self {
+        Recorder { carried, ..self }
+    }
+
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
     pub fn finish(&mut self, end: f64, at_rest: bool) {
-        if at_rest {
+        if at_rest && !self.carried {
             self.stand_until(end);
             let sample = self.standing(end);
             self.push(sample);
@@ -171,9 +178,19 @@ impl<S: Real> Observer<S> for Recorder<'_> {
         self.pending = Some(last);
     }
 
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        if self.carried && interval.to > interval.from {
+            self.device_interval(output, interval);
+        }
+    }
+
     fn event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
         match event {
+            Event::Uplift | Event::Rest if self.carried => {
+                self.flush();
+                self.broken = true;
+            }
             Event::Uplift => {
                 self.stand_until(at);
                 let sample = self.standing(at);

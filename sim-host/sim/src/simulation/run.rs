@@ -248,6 +248,11 @@ impl<'a> Task<'a> {
         (rotation != 0.0 || velocity != 0.0).then_some((rotation * alpha, velocity * p * alpha))
     }
 
+    /// Whether the device's support moves otherwise than the ground.
+    pub(super) fn carried(&self) -> bool {
+        self.device().drivetrain.support.moves()
+    }
+
     /// Accelerations of ground and support at the start.
     pub fn ground_at_start(&self) -> Accelerations<f64> {
         let first = |motion: &GroundMotion| motion.segments().first().map_or(0.0, |segment| segment.shape.acceleration(0.0));
@@ -284,7 +289,7 @@ impl<'a> Task<'a> {
         let checks = || Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.device().account(loaded));
         let checks = if all || self.reports { Some(checks()?) } else { None };
         Ok(Watchers {
-            recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments),
+            recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments).carried(self.carried()),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
             checks: checks.map(|checks| match &self.scene.file.checks {
                 Some(table) if self.reports || table.gear.is_some() || table.friction_coefficient.is_some() => checks,

@@ -39,6 +39,10 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.recorder.device_at_rest(output, interval);
+        if let Some(checks) = &mut self.checks {
+            checks.device_at_rest(output, interval);
+        }
         self.asked.device_at_rest(output, interval);
     }
 

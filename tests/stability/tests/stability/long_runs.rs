@@ -148,6 +148,10 @@ fn a_standing_block_costs_a_few_looks_at_the_ground() {
             GroundSegment::slope(&self.0, time)
         }
 
+        fn gain(&self, time: f32) -> f32 {
+            GroundSegment::gain(&self.0, time)
+        }
+
         fn curvature_bound(&self) -> f32 {
             0.0
         }

@@ -20,7 +20,7 @@ const SIGMA: f64 = 0.5;
 const RACK: f64 = 0.02;
 
 fn checks(structure: &Structure, clutching: Clutching, rack_mass_ratio: f64) -> Checks<f64> {
-    let account = Account { clutching, mass_ratio: SIGMA, rack_mass_ratio, support: 0.0, own_support: 0.0 };
+    let account = Account { clutching, mass_ratio: SIGMA, rack_mass_ratio, ..Account::default() };
     Checks::new(&structure.block, structure.geometry, &structure.device.mount, &account).unwrap()
 }
 

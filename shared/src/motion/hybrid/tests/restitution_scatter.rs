@@ -131,8 +131,8 @@ fn the_ledger_closes_with_scattered_impacts() {
                 clutching: if ideal { Clutching::Ideal } else { Clutching::Real },
                 mass_ratio: 0.5,
                 rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
-                support: drivetrain.support.amplification - 1.0,
-                own_support: f64::from(u8::from(drivetrain.support.own_motion)),
+                on_support: drivetrain.support.moves(),
+                ..Account::default()
             };
             let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
             shake.watched(&drivetrain, &tight(), &mut ledger);

@@ -1,5 +1,7 @@
 //! A support that moves on its own, against what it amounts to.
 
+use std::vec::Vec;
+
 use super::{Shake, constant, shake, structure, tight};
 use crate::drivetrain::clutch_state::Coupling;
 use crate::ground::{Harmonics, Linear};
@@ -47,16 +49,16 @@ fn with_one_inerter_it_is_another_push() {
     }
 }
 
-/// |ü_g| (1 − σ (f − 1)) = g tan α is the uplift with an inerter; the clutches of a pair are open, and its support holds nothing.
+/// |ü_g| (1 − σ (f − 1)) = g tan α is the uplift, also with a pair: one of its flywheels resists from the first instant of the support's motion on.
 #[test]
-fn it_moves_the_uplift_threshold_of_an_inerter_and_not_that_of_a_pair() {
-    for (kind, share) in [(DeviceKind::Inerter, 1.0), (DeviceKind::ClutchedPair, 0.0)] {
+fn it_moves_the_uplift_threshold() {
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
         let structure = structure(Geometry::Full, 12.0, kind, SIGMA, KinematicsKind::Paper);
         let threshold = crate::math::tan(structure.block.slenderness());
         for f in [1.4, 0.6] {
             let machine: HybridSystem<f64> = on(f).resolve(&structure, false).unwrap();
             for (push, rocks) in [(0.999, false), (1.001, true), (-0.999, false), (-1.001, true)] {
-                let ground = constant(push * threshold / (1.0 - share * SIGMA * (f - 1.0)));
+                let ground = constant(push * threshold / (1.0 - SIGMA * (f - 1.0)));
                 let mut state = machine.at_rest();
                 let shaking = Shaking::level(&ground);
                 let limits = Limits { overturned: 1.5, events: 10_000 };
@@ -69,39 +71,40 @@ fn it_moves_the_uplift_threshold_of_an_inerter_and_not_that_of_a_pair() {
     }
 }
 
-/// A slender block falls back from θ₀ under a constant push u that holds it up by the flywheel: the clutch is open until (α − θ) + u' = 0 with
-/// u' = (1 − σ (f − 1)) u, where the engaged flywheel would no longer be driven outward, and engaged from there on. Both ways have an energy.
+/// A slender block falls back from θ₀ under a constant push u, its support faster, at c = λ(f − 1) p² u: the rack moves outward on it, which the first
+/// flywheel resists until both accelerate alike, where α + u − θ = −λ(f − 1) u. Until then θ̇² has an energy, under the push
+/// (1 − σ (f − 1)) u.
 #[test]
-fn a_pair_engages_where_its_flywheel_would_resist() {
+fn a_pair_resists_the_motion_of_its_terminals() {
     #[derive(Default)]
-    struct Arrival(Option<f64>);
-    impl Observer<f64> for Arrival {
+    struct Switches(Vec<BlockState<f64>>);
+    impl Observer<f64> for Switches {
         fn event(&mut self, event: Event, _time: f64, state: &BlockState<f64>) {
-            if event == Event::Impact {
-                self.0.get_or_insert(state.velocity);
+            if event == Event::Switch {
+                self.0.push(*state);
             }
         }
     }
-    let mut structure = structure(Geometry::Slender, 15.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Paper);
-    structure.restitution = crate::structure::restitution::Restitution::Constant(1.0);
+    let structure = structure(Geometry::Slender, 15.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Paper);
     let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
-    let k = SIGMA / structure.block.inertia_ratio();
-    let (start, push, f) = (0.1, 0.05, 10.0);
-    let engaged = push * (1.0 - SIGMA * (f - 1.0));
-    let switch = alpha + engaged;
+    let lambda = structure.block.inertia_ratio();
+    let (start, push, f) = (0.1, 0.05, -3.0);
+    let switch = alpha + push + lambda * (f - 1.0) * push;
     assert!(0.0 < switch && switch < start);
-    let fall = |push: f64, from: f64, to: f64| p2 * ((alpha + push) * (from - to) - 0.5 * (from * from - to * to));
-    let expected = 2.0 * fall(push, start, switch) + 2.0 * fall(engaged, switch, 0.0) / (1.0 + k);
-    for side in [1.0, -1.0] {
+    let engaged = push * (1.0 - SIGMA * (f - 1.0));
+    let fall = p2 * ((alpha + engaged) * (start - switch) - 0.5 * (start * start - switch * switch));
+    let expected = 2.0 * fall / (1.0 + SIGMA / lambda);
+    for (side, wheel) in [(1.0, 0), (-1.0, 1)] {
         let machine: HybridSystem<f64> = on(f).resolve(&structure, false).unwrap();
         let ground = Linear::constant(side * push);
         let mut state = machine.released_at(side * start, 0.0, [side * push, 0.0, 0.0]);
-        assert!(state.device.wheels.iter().all(|wheel| wheel.coupling == Coupling::Open));
-        let shaking = Shaking::level(&ground);
-        let (mut arrival, limits) = (Arrival::default(), Limits { overturned: 1.0, events: 1000 });
-        machine.advance(&tight(), &mut state, shaking, 1.5, &limits, &mut arrival).unwrap();
-        let arrived = arrival.0.unwrap();
-        assert!((arrived * arrived / expected - 1.0).abs() < 1e-12, "{} and {expected}", arrived * arrived);
+        assert_eq!(state.device.wheels[wheel].coupling, Coupling::Locked);
+        let (mut switches, limits) = (Switches::default(), Limits { overturned: 1.0, events: 1000 });
+        machine.advance(&tight(), &mut state, Shaking::level(&ground), 0.6, &limits, &mut switches).unwrap();
+        let released = switches.0[0];
+        assert!((released.rotation / (side * switch) - 1.0).abs() < 1e-12, "{} and {switch}", released.rotation);
+        let energy = released.velocity * released.velocity;
+        assert!((energy / expected - 1.0).abs() < 1e-12, "{energy} and {expected}");
     }
 }
 

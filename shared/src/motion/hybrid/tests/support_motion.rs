@@ -1,12 +1,16 @@
 //! A support with a motion of its own, beside the ground's.
 
+use std::vec::Vec;
+
 use super::{constant, sine, structure, tight};
-use crate::ground::{AnySegment, DampedOscillation, GroundSegment, Harmonics};
+use crate::ground::{AnySegment, DampedOscillation, GroundSegment, Harmonics, Ricker};
 use crate::method::fixed::{FixedStep, Scheme};
+use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
 use crate::motion::hybrid::{HybridState, HybridSystem};
-use crate::motion::observer::Observer;
-use crate::motion::state::{Limits, Phase};
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::state::{BlockState, Limits, Phase};
+use crate::observers::checks::Checks;
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::observers::peaks::Peaks;
 use crate::structure::Structure;
@@ -56,7 +60,7 @@ fn pieces(sign: f64) -> [(AnySegment<f64>, AnySegment<f64>, f64); 2] {
 
 fn account(kind: DeviceKind) -> Account {
     let clutching = if kind == DeviceKind::ClutchedPair { Clutching::Ideal } else { Clutching::Permanent };
-    Account { clutching, mass_ratio: SIGMA, own_support: 1.0, ..Account::default() }
+    Account { clutching, mass_ratio: SIGMA, on_support: true, ..Account::default() }
 }
 
 /// One that moves by f − 1 times the ground's acceleration against it is one that moves by f times.
@@ -97,9 +101,15 @@ fn its_work_closes_the_ledger() {
             let entries = ledger.entries;
             let residual = entries.residual().abs() / entries.input.abs();
             assert!(residual < 1e-10, "{kind:?} {geometry:?}: {residual:e} of the input, {entries:?}");
-            let mut blind = Ledger::new(&structure.block, geometry, &Account { own_support: 0.0, ..account(kind) });
+            let mut blind = Ledger::new(&structure.block, geometry, &Account { on_support: false, ..account(kind) });
             follow(&machine, &tight(), &pieces(1.0), &mut blind);
-            assert!(blind.entries.residual().abs() > 1e-3 * entries.input.abs(), "{kind:?}: the support does no work");
+            let wavelet = AnySegment::Ricker(Ricker { amplitude: 0.2, rate: 5.0, centre: 0.7 });
+            let mut standing = Ledger::new(&structure.block, geometry, &account(kind));
+            let end = follow(&machine, &tight(), &[(AnySegment::Quiet, wavelet, 1.4)], &mut standing);
+            assert_eq!(end.motion.phase, Phase::Rest);
+            assert!(standing.entries.residual().abs() < 1e-15, "{:?}", standing.entries);
+            let blind = blind.entries.residual().abs() / entries.input.abs();
+            assert!(blind > 1e-4, "{kind:?}: the support does no work ({blind:e})");
         }
     }
 }
@@ -146,7 +156,92 @@ fn clutches_switch_on_time_however_fast_it_swings() {
     }
 }
 
-/// On ground that stands still the flywheel lifts the block where σ |ü_s| = g tan α; the clutches of a pair are open.
+/// Force and speed of an engaged flywheel have one sign, standing or rocking: it resists its rack and never drives it.
+#[test]
+fn a_pair_never_drives() {
+    #[derive(Default)]
+    struct Powers {
+        taken: f64,
+        driven: f64,
+    }
+    impl Observer<f64> for Powers {
+        fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            for share in [0.0, 0.2, 0.5, 0.8, 1.0] {
+                let device = output.snapshot(interval.from + share * (interval.to - interval.from)).device;
+                for (force, spin) in device.force.iter().zip(device.spin) {
+                    (self.taken, self.driven) = (self.taken.max(force * spin), self.driven.min(force * spin));
+                }
+            }
+        }
+
+        fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            // One of no length is before the commands of its instant.
+            if interval.to > interval.from {
+                self.device_interval(output, interval);
+            }
+        }
+    }
+    for (geometry, mount) in [
+        (Geometry::Slender, Mount::CentreOfMass),
+        (Geometry::Full, Mount::CentreOfMass),
+        (Geometry::Full, Mount::TyingPoint { height: 1.4, pulley_ratio: 1.5 }),
+    ] {
+        let machine = moving().resolve(&of(geometry, DeviceKind::ClutchedPair, mount), false).unwrap();
+        for size in [0.2, 1.0] {
+            let mut powers = Powers::default();
+            let pieces = pieces(1.0).map(|(ground, support, duration)| match (ground, support) {
+                (AnySegment::Sine(_), support) if size < 1.0 => (AnySegment::Quiet, support, duration),
+                (ground, support) => (ground, support, duration),
+            });
+            follow(&machine, &tight(), &pieces, &mut powers);
+            let Powers { taken, driven } = powers;
+            assert!(taken > 0.01 && driven > -1e-11 * taken, "{geometry:?} {mount:?} {size}: {taken} {driven}");
+        }
+    }
+}
+
+/// The clutches of a standing block follow Eq. 10 at the terminals: on a support that accelerates by A sin ωt, whose speed is (A/ω)(1 − cos ωt),
+/// one flywheel works from each cycle's start to its middle; by A cos ωt they take turns, from each zero of the speed to the next of the acceleration.
+/// F = σ |ü_s| there.
+#[test]
+fn the_clutches_of_a_standing_block_follow_the_support() {
+    #[derive(Default)]
+    struct Switches(Vec<f64>);
+    impl Observer<f64> for Switches {
+        fn event(&mut self, event: Event, time: f64, _state: &BlockState<f64>) {
+            assert_eq!(event, Event::Switch);
+            self.0.push(time);
+        }
+    }
+    let structure = of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass);
+    let machine: HybridSystem<f64> = moving().resolve(&structure, false).unwrap();
+    let (amplitude, frequency) = (0.2, 7.0);
+    let quarter = core::f64::consts::FRAC_PI_2 / frequency;
+    for (support, quarters) in [
+        (Harmonics::sine(amplitude, frequency), [0.0, 2.0, 4.0, 6.0, 8.0]),
+        (Harmonics::cosine(amplitude, frequency), [0.0, 1.0, 2.0, 3.0, 4.0]),
+    ] {
+        let shaking = Shaking { support: Some(&support), ..Shaking::level(&Harmonics::QUIET) };
+        let account = account(DeviceKind::ClutchedPair);
+        let mut checks = Checks::<f64>::new(&structure.block, Geometry::Full, &Mount::CentreOfMass, &account).unwrap();
+        let mut switches = Switches::default();
+        let observers: [&mut dyn Observer<f64>; 2] = [&mut checks, &mut switches];
+        for observer in observers {
+            let mut state = machine.at_rest();
+            machine.advance(&tight(), &mut state, shaking, (quarters[4] + 0.5) * quarter, &LIMITS, observer).unwrap();
+            assert_eq!(state.motion.phase, Phase::Rest);
+        }
+        let force = checks.report.support.unwrap().value;
+        assert!((force / (SIGMA * amplitude) - 1.0).abs() < 1e-12, "{force}");
+        let expected = quarters.map(|quarters| quarters * quarter);
+        assert_eq!(switches.0.len(), expected.len(), "{:?}", switches.0);
+        for (time, expected) in switches.0.iter().zip(expected) {
+            assert!((time - expected).abs() < 1e-12, "{time} and {expected}");
+        }
+    }
+}
+
+/// On ground that stands still the flywheel lifts the block where σ |ü_s| = g tan α, and so does one of a pair.
 #[test]
 fn it_lifts_a_block_by_its_inerter_alone() {
     let structure = of(Geometry::Full, DeviceKind::Inerter, Mount::CentreOfMass);
@@ -156,7 +251,10 @@ fn it_lifts_a_block_by_its_inerter_alone() {
         (DeviceKind::Inerter, 1.001, true),
         (DeviceKind::Inerter, -0.999, false),
         (DeviceKind::Inerter, -1.001, true),
-        (DeviceKind::ClutchedPair, 1.5, false),
+        (DeviceKind::ClutchedPair, 0.999, false),
+        (DeviceKind::ClutchedPair, 1.001, true),
+        (DeviceKind::ClutchedPair, -0.999, false),
+        (DeviceKind::ClutchedPair, -1.001, true),
     ] {
         let machine: HybridSystem<f64> = moving().resolve(&of(Geometry::Full, kind, Mount::CentreOfMass), false).unwrap();
         let support = constant(push * threshold);

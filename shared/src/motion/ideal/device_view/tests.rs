@@ -33,6 +33,13 @@ impl GroundSegment<f64> for Shake {
         }
     }
 
+    fn gain(&self, time: f64) -> f64 {
+        match self {
+            Shake::Sine(sine) => sine.gain(time),
+            Shake::Line(line) => GroundSegment::gain(line, time),
+        }
+    }
+
     fn curvature_bound(&self) -> f64 {
         match self {
             Shake::Sine(sine) => sine.curvature_bound(),

@@ -85,6 +85,10 @@ impl GroundSegment<f64> for Later<'_> {
         self.0.slope(self.1 + time)
     }
 
+    fn gain(&self, time: f64) -> f64 {
+        self.0.gain(self.1 + time) - self.0.gain(self.1)
+    }
+
     fn curvature_bound(&self) -> f64 {
         self.0.curvature_bound()
     }

@@ -1,0 +1,134 @@
+//! The terminals of a device on a support that moves otherwise than the ground ([`crate::drivetrain::on_support`]).
+
+use super::mode_output::Shaking;
+use super::{HybridState, HybridSystem};
+use crate::equation::Accelerations;
+use crate::equation::body::Body;
+use crate::ground::GroundSegment;
+use crate::math::polynomial::first_zero_of;
+use crate::math::root::zero_shown;
+use crate::math::scalar::Real;
+use crate::math::sign::Sign;
+use crate::motion::observer::Observer;
+
+/// Roundings of a speed within which it counts as zero.
+const ROUNDINGS: f64 = 64.0;
+
+/// Sign of a number that is not zero.
+fn nonzero<S: Real>(value: S) -> Option<Sign> {
+    (value != S::ZERO).then(|| Sign::of(value, Sign::Positive))
+}
+
+impl<S: Real> HybridSystem<S> {
+    /// What the support's speed gains on the ground between two local times of a segment, as that of the terminals over R; 1/s.
+    pub(super) fn support_gain(&self, state: &HybridState<S>, shaking: Shaking<'_, S>, from: S, to: S) -> S {
+        if state.device.terminals.is_none() {
+            return S::ZERO;
+        }
+        let gain = |segment: &dyn GroundSegment<S>| segment.gain(to) - segment.gain(from);
+        let [ground, support] = self.transmission.parameters.support_rates();
+        ground * gain(shaking.horizontal) + shaking.support.map_or(S::ZERO, |segment| support * gain(segment))
+    }
+
+    /// Rate of that speed at a local time, 1/s², and its slope.
+    fn support_rate(&self, shaking: Shaking<'_, S>, time: S) -> (S, S) {
+        let [ground, support] = self.transmission.parameters.support_rates();
+        let of = |rate: S, segment: &dyn GroundSegment<S>| (rate * segment.acceleration(time), rate * segment.slope(time));
+        let (value, slope) = of(ground, shaking.horizontal);
+        let (own, steeper) = shaking.support.map_or((S::ZERO, S::ZERO), |segment| of(support, segment));
+        (value + own, slope + steeper)
+    }
+
+    /// Carries the support on from `from` to `to`, while the block stands.
+    pub(super) fn carry(&self, state: &mut HybridState<S>, shaking: Shaking<'_, S>, from: S, to: S) {
+        let gain = self.support_gain(state, shaking, from, to);
+        if let Some(terminals) = &mut state.device.terminals {
+            let now = terminals.support + gain;
+            // Where it turns about, what is left of it is rounding.
+            let rate = self.support_rate(shaking, to).0;
+            let rounding = S::of(ROUNDINGS) * S::EPSILON * (gain.abs() + rate.abs() * to);
+            terminals.support = if now.abs() <= rounding { S::ZERO } else { now };
+        }
+    }
+
+    /// Commands of Eq. 10 to the clutches of a standing block, whose terminals move with the support alone. Returns until when its speed and
+    /// acceleration keep their signs; `to` where it moves with the ground.
+    pub(super) fn drive_at_rest(
+        &self,
+        state: &mut HybridState<S>,
+        shaking: Shaking<'_, S>,
+        (from, to): (S, S),
+        observer: &mut dyn Observer<S>,
+    ) -> S {
+        let Some(terminals) = state.device.terminals else { return to };
+        if self.lifts_now(state, shaking.at(from)) {
+            return to;
+        }
+        let [ground, support] = self.transmission.parameters.support_rates();
+        let rate = |t: S| self.support_rate(shaking, t);
+        let (value, slope) = rate(from);
+        let own = shaking.support.map_or(S::ZERO, |segment| support.abs() * segment.curvature_bound());
+        let curvature = ground.abs() * shaking.horizontal.curvature_bound() + own;
+        // Until its next zero, and whether one is here. What a zero just passed leaves is rounding, in which there is another at once.
+        let next = |sign: Sign, here: bool| first_zero_of(rate, curvature, (from, to, rate(to).0), sign, here).unwrap_or(to);
+        let rounding = S::of(ROUNDINGS) * S::EPSILON * (slope.abs() * from + rate(S::ZERO).0.abs());
+        let as_it_is = nonzero(value).filter(|_| value.abs() > rounding).map(|sign| (sign, next(sign, false)));
+        let (accelerates, mut until) = match as_it_is.filter(|(_, until)| *until > from) {
+            Some((sign, until)) => (Some(sign), until),
+            None => (nonzero(slope), nonzero(slope).map_or(to, |sign| next(sign, true))),
+        };
+        let mut moves = nonzero(terminals.support);
+        if let Some(sign) = moves {
+            // Its speed is monotone until then.
+            let speed = |at: S| terminals.support + self.support_gain(state, shaking, from, at);
+            match zero_shown(from, until, sign, speed) {
+                Some(turns) if turns > from => until = turns,
+                Some(_) => moves = None,
+                None => {}
+            }
+        }
+        let moves = moves.or(accelerates);
+        let way = moves.map(Sign::opposite);
+        if let (Some(way), Some(terminals)) = (way, &mut state.device.terminals) {
+            terminals.direction = way;
+        }
+        if let Some(sign) = accelerates {
+            state.motion.terminal_acceleration_sign = sign.opposite();
+        }
+        if self.transmission.traits().commanded {
+            self.ask(state, way.filter(|_| accelerates == moves));
+            self.carry_out_at_rest(state, from, observer);
+        }
+        until
+    }
+
+    /// Whether the block of `state` rises at once under `ground`, with its clutches as they are and as they are commanded on its way.
+    fn lifts_now(&self, state: &HybridState<S>, ground: Accelerations<S>) -> bool {
+        let (side, threshold) = self.lifted(state, ground);
+        if !threshold.is_exceeded(ground) {
+            return false;
+        }
+        let mut started = HybridState { motion: state.motion.uplifted(side), ground, ..*state };
+        self.leave_base(&mut started, S::ZERO, &mut ());
+        self.command(&mut started, S::ZERO, &mut ());
+        self.breakaway(&started, side, side).is_exceeded(ground)
+    }
+
+    /// Takes the direction of the terminals as it is now; where they stand, the one in which they accelerate.
+    pub(super) fn look_at_terminals(&self, state: &mut HybridState<S>) {
+        let configuration = self.body.configuration(state.motion.side.unit(), state.motion.rotation);
+        let rack = self.body.to_terminal(&configuration, state.motion.velocity);
+        if let Some(terminals) = &mut state.device.terminals {
+            let speed = rack - terminals.support;
+            terminals.direction = Sign::of(speed, state.motion.terminal_acceleration_sign);
+            state.fresh[1] = speed == S::ZERO;
+        }
+    }
+
+    /// The accelerations have jumped: terminals that `stood` go where they accelerate now.
+    pub(super) fn terminals_after_jump(&self, state: &mut HybridState<S>, stood: bool) {
+        if let (Some(terminals), true) = (&mut state.device.terminals, stood) {
+            (terminals.direction, state.fresh[1]) = (state.motion.terminal_acceleration_sign, true);
+        }
+    }
+}
