@@ -1,11 +1,12 @@
 //! Parts lists.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_sim::scene::Scene as SimScene;
 use sprag_sim::scene::ground::GroundError;
+use sprag_studies::cloud::record_name::names;
 use sprag_studies::design::basis::Basis;
 use sprag_studies::design::page::page;
 use sprag_studies::design::study::Problem;
@@ -36,9 +37,13 @@ fn motions(scene: &SimScene, records: Vec<sprag_sim::record::Record>) -> Result<
         StudyMotion::may_be_replaced(scene)?;
     }
     let mut motions: Vec<StudyMotion> = StudyMotion::own(scene)?.into_iter().collect();
-    for record in records {
-        let files = RecordFiles { horizontal: Path::new(&record.name).to_owned(), vertical: None };
-        motions.push(StudyMotion::record(&SimScene { given: [record.into()].into(), ..scene.clone() }, &files)?);
+    let files = RecordFiles::horizontal(&records.iter().map(|record| PathBuf::from(&record.name)).collect::<Vec<_>>());
+    // Records in memory are known by their names alone.
+    let unnamed: Vec<_> = files.iter().map(|files| files.unnamed(files.horizontal.clone())).collect();
+    for ((record, files), name) in records.into_iter().zip(&files).zip(names(&unnamed)) {
+        let mut motion = StudyMotion::record(&SimScene { given: [record.into()].into(), ..scene.clone() }, files)?;
+        motion.name = name;
+        motions.push(motion);
     }
     Ok(motions)
 }

@@ -43,6 +43,13 @@ def test_records_come_beside_the_motion_of_the_scene(scene: sprag.Scene) -> None
     assert both.motions["peak_rotation"][1] == 0.0 < both.motions["peak_rotation"][2]
 
 
+def test_records_of_one_file_name_are_distinguished(scene: sprag.Scene) -> None:
+    shaking = burst(4.0).acceleration_m_s2
+    records = [sprag.Record(shaking, time_step_s=0.01, name=f"{folder}/a.csv") for folder in ["one", "other"]]
+    found = sprag.design(scene, devices=["clutched pair"], records=records)
+    assert found.motions["motion"] == ["own motion", "one/a.csv", "other/a.csv"]
+
+
 def test_parts_grow_with_what_is_assumed(scene: sprag.Scene) -> None:
     def chosen(**assumed: float) -> float:
         parts = sprag.design(scene, devices=["clutched pair"], **assumed).parts

@@ -12,6 +12,7 @@ use sprag_sim::scene::motions::GroundMotions;
 
 use super::folder::{self, Named};
 use super::measure::MeasuredRecord;
+use super::record_name::{self, Unnamed, same_file};
 use super::study::{Study, check_units};
 use super::study_file::{DescribedRecord, RecordEntry};
 
@@ -69,7 +70,7 @@ enum Described {
 struct Source {
     name: String,
     path: PathBuf,
-    /// Its path without links.
+    /// Its file, however it is named.
     file: PathBuf,
     options: ReadOptions,
     event: Option<String>,
@@ -77,15 +78,9 @@ struct Source {
 }
 
 impl Source {
-    /// Its name, which none of the other `sources` has.
-    fn name_among(&self, sources: &[Source]) -> String {
-        let others = |of: fn(&Source, &Source) -> bool| sources.iter().any(|other| !std::ptr::eq(self, other) && of(self, other));
-        let called_so = others(|one, other| one.name == other.name && one.file != other.file);
-        let name = if called_so { folder::shown(&self.path) } else { self.name.clone() };
-        match &self.options.component {
-            Some(component) if others(|one, other| one.file == other.file) => format!("{name}, {component}"),
-            _ => name,
-        }
+    fn unnamed(&self) -> Unnamed {
+        let part = self.options.component.as_ref().map(ToString::to_string);
+        Unnamed { short: self.name.clone(), path: self.path.clone(), file: self.file.clone(), part }
     }
 }
 
@@ -109,7 +104,7 @@ impl StudyRecords {
             let component = source.options.component.as_ref().map(|component| component.to_string().to_lowercase());
             described.get(&source.file) == Some(&source.described) && seen.insert((source.file.clone(), component))
         });
-        let names: Vec<String> = sources.iter().map(|source| source.name_among(&sources)).collect();
+        let names = record_name::names(&sources.iter().map(Source::unnamed).collect::<Vec<_>>());
         let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
         for ((name, source), record) in names.into_iter().zip(&sources).zip(read) {
             match record {
@@ -185,8 +180,8 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
                 RecordEntry::Described(_) if file == path => Described::Alone,
                 RecordEntry::Described(_) => Described::OfFolder,
             };
-            let known = std::fs::canonicalize(&file).unwrap_or_else(|_| file.clone());
-            sources.push(Source { name, path: file, file: known, options: options.clone(), event: event.clone(), described });
+            let (known, options, event) = (same_file(&file), options.clone(), event.clone());
+            sources.push(Source { name, path: file, file: known, options, event, described });
         }
     }
     Ok(sources)

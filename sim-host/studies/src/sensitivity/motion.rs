@@ -12,6 +12,7 @@ use sprag_sim::side_by_side::Shaking;
 
 use super::variants::VERTICAL_RATIO;
 use crate::cloud::folder::shown;
+use crate::cloud::record_name::{Unnamed, names, same_file};
 
 /// A ground motion, with and without a vertical one.
 #[derive(Debug)]
@@ -41,18 +42,25 @@ pub struct RecordFiles {
 }
 
 impl RecordFiles {
-    /// Those of `records` that are not named before, each with its name in tables: that of its file, or its whole path where another one is
-    /// called so.
+    /// The horizontal components `files`, without vertical ones.
+    pub fn horizontal(files: &[PathBuf]) -> Vec<RecordFiles> {
+        files.iter().map(|file| RecordFiles { horizontal: file.clone(), vertical: None }).collect()
+    }
+
+    /// Those of `records` that are not named before, each with its [name](names) in tables: that of its file, and of the vertical one where the
+    /// same file is there with another or none.
     pub fn named(records: &[RecordFiles]) -> Vec<(String, &RecordFiles)> {
-        let file = |path: &PathBuf| std::fs::canonicalize(path).unwrap_or_else(|_| path.clone());
         let mut seen = BTreeSet::new();
-        let new = |record: &&RecordFiles| seen.insert((file(&record.horizontal), record.vertical.as_ref().map(file)));
+        let files = |record: &RecordFiles| (same_file(&record.horizontal), record.vertical.as_deref().map(same_file));
+        let new = |record: &&RecordFiles| seen.insert(files(record));
         let once: Vec<&RecordFiles> = records.iter().filter(new).collect();
-        let name = |record: &RecordFiles| {
-            let same = once.iter().filter(|other| other.stem() == record.stem()).count() > 1;
-            if same { shown(&record.horizontal) } else { record.stem() }
-        };
-        once.iter().map(|record| (name(record), *record)).collect()
+        let unnamed: Vec<Unnamed> = once.iter().map(|record| record.unnamed(same_file(&record.horizontal))).collect();
+        names(&unnamed).into_iter().zip(once).collect()
+    }
+
+    /// For a name; its horizontal component is known as `file`.
+    pub fn unnamed(&self, file: PathBuf) -> Unnamed {
+        Unnamed { short: self.stem(), path: self.horizontal.clone(), file, part: self.vertical.as_deref().map(shown) }
     }
 
     fn stem(&self) -> String {
@@ -170,6 +178,8 @@ mod tests {
         let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, [&shown(&at("one/a.csv")), &shown(&at("other/a.csv")), "b"]);
         // Another vertical component makes another motion.
-        assert_eq!(RecordFiles::named(&records[3..]).len(), 2);
+        let named = RecordFiles::named(&records[3..]);
+        let names: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, [&*format!("b, {}", shown(&at("v.csv"))), "b"]);
     }
 }
