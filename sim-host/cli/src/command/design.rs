@@ -158,9 +158,7 @@ fn designed(
     // What is wrong with the options is said before records are read.
     Problem::new(&scene, &arguments.device, arguments.basis.basis(&scene))?;
     arguments.reading.apply(&mut scene)?;
-    let files = |file: &PathBuf| RecordFiles { horizontal: file.clone(), vertical: None };
-    let records: Vec<RecordFiles> = named.files.iter().map(files).collect();
-    let read = ReadMotions::of(&scene, &records, &named.unreadable)?;
+    let read = ReadMotions::of(&scene, &RecordFiles::horizontal(&named.files), &named.unreadable)?;
     let names = ["design", "parts", "motions", "delays", "delay"];
     let claim = claim_of_scene("design", &arguments.scene.scene, &scene, &scene.file, &names, &named.files)?;
     let subject = claim.subject.with("basis", &arguments.basis.basis(&scene))?.with("device", &arguments.device)?;

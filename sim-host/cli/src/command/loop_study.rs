@@ -18,6 +18,7 @@ use sprag_studies::loop_study::motion::Motion;
 use sprag_studies::loop_study::practice::practice;
 use sprag_studies::loop_study::robustness::robustness;
 use sprag_studies::loop_study::train::train;
+use sprag_studies::sensitivity::motion::RecordFiles;
 
 use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
@@ -93,10 +94,7 @@ impl Run for LoopStudyArguments {
             anyhow::bail!("--records: the study {name} takes no records");
         }
         let mut folder = self.output.folder_at(Path::new(&name), "loop-study", &self.accuracy)?;
-        let named = Named::of(&self.records);
-        if let Some(unreadable) = named.unreadable.first() {
-            anyhow::bail!("{unreadable}");
-        }
+        let named = named_once(&self.records)?;
         let files: Vec<(PathBuf, PathBuf)> = named.files.iter().map(|file| (file.clone(), file.clone())).collect();
         let accuracy = self.accuracy.accuracy.map(|accuracy| accuracy.to_string());
         let subject = Subject::new("loop-study", digests(&files)).with("study", &name)?.with("accuracy", &accuracy)?;
@@ -142,5 +140,33 @@ impl Run for LoopStudyArguments {
         report.print(made.page.for_terminal());
         report.accuracy(worst);
         report.finish(context)
+    }
+}
+
+/// The record files among `paths` and in their folders, each once.
+fn named_once(paths: &[PathBuf]) -> anyhow::Result<Named> {
+    let named = Named::of(paths);
+    if let Some(unreadable) = named.unreadable.first() {
+        anyhow::bail!("{unreadable}");
+    }
+    let records = RecordFiles::horizontal(&named.files);
+    let files = RecordFiles::named(&records).into_iter().map(|(_, record)| record.horizontal.clone()).collect();
+    Ok(Named { files, ..named })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_named_twice_is_one_record() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::create_dir(at("inside")).unwrap();
+        for name in ["a.csv", "inside/b.csv"] {
+            std::fs::write(at(name), "").unwrap();
+        }
+        let named = named_once(&[at("inside/../a.csv"), at("inside"), at("a.csv"), folder.path().to_owned()]).unwrap();
+        assert_eq!(named.files, [at("inside/../a.csv"), at("inside/b.csv")]);
     }
 }
