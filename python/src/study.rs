@@ -123,10 +123,11 @@ pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyR
         pool.install(|| -> PyResult<_> {
             let records = study.records()?;
             let runs = Runs::of(&study.study, &records.records, interrupt, |_| (), &|| ()).map_err(stopped)?;
-            let findings = Findings::of(&study.study, &runs).map_err(failed)?;
+            let findings = Findings::of(&study.study, &runs, interrupt);
             if interrupt.is_set() {
                 return Err(PyKeyboardInterrupt::new_err(()));
             }
+            let findings = findings.map_err(failed)?;
             let tables = [
                 ("runs", Columns::of(&runs_table(&study.study, &records.records, &runs.all))),
                 ("demand", Columns::of(&demand_table(&findings))),

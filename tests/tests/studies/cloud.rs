@@ -23,7 +23,7 @@ fn study(text: &str, records: &Path) -> Study {
 pub fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
     let records = StudyRecords::read(study).unwrap();
     let runs = Runs::of(study, &records.records, &Interrupt::default(), |_| (), &|| ()).unwrap();
-    let findings = Findings::of(study, &runs).unwrap();
+    let findings = Findings::of(study, &runs, &Interrupt::default()).unwrap();
     (records, runs, findings)
 }
 

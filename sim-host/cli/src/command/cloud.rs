@@ -118,7 +118,7 @@ impl Run for CloudArguments {
             return Ok(Completion::of(complete));
         }
         let mut report = Report::new("cloud", &folder, &self.output)?;
-        let findings = pool.install(|| Findings::of(&studied.study, &studied.runs))?;
+        let findings = pool.install(|| Findings::of(&studied.study, &studied.runs, interrupt))?;
         context.check_interrupt()?;
         fill(&mut report, &studied, &findings, &warnings)?;
         report.complete(complete);

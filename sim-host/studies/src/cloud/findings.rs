@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use sprag_shared::observers::outcome::Outcome;
+use sprag_sim::interrupt::Interrupt;
 
 use super::comparison::DemandRatio;
 use super::demand::{Demand, DemandModel};
@@ -51,8 +52,8 @@ impl Findings {
     /// What `study` finds in `runs`.
     ///
     /// # Errors
-    /// [`OverturningError`]; not known to happen.
-    pub fn of(study: &Study, runs: &Runs) -> Result<Findings, OverturningError> {
+    /// [`OverturningError`] once `interrupt` is set; another is not known to happen.
+    pub fn of(study: &Study, runs: &Runs, interrupt: &Interrupt) -> Result<Findings, OverturningError> {
         let mut found = Findings::default();
         let measure = study.file.fragility.measure;
         let asked = |names: &[String], name: &String| names.is_empty() || names.contains(name);
@@ -82,7 +83,8 @@ impl Findings {
             if asked(&study.file.fragility.structures, &structure.name) {
                 let mut fragilities: Vec<DeviceFragility> = Vec::new();
                 for (device, runs) in devices() {
-                    fragilities.extend(DeviceFragility::fit(runs, name, device, measure, study.bootstrap, highest)?);
+                    let fit = DeviceFragility::fit(runs, name, device, measure, study.bootstrap, highest, interrupt)?;
+                    fragilities.extend(fit);
                 }
                 if let Some(first) = fragilities.first().filter(|first| first.device_index == 0).cloned() {
                     fragilities.iter_mut().skip(1).for_each(|fragility| fragility.compare(&first));

@@ -81,7 +81,7 @@ impl DeviceFragility {
     /// has a value of the measure. `highest` is where its band ends.
     ///
     /// # Errors
-    /// [`OverturningError`]; not known to happen.
+    /// [`OverturningError`] once `interrupt` is set; another is not known to happen.
     pub fn fit(
         runs: &[&Run],
         structure: (usize, &str),
@@ -89,6 +89,7 @@ impl DeviceFragility {
         measure: Measure,
         bootstrap: Bootstrap,
         highest: f64,
+        interrupt: &Interrupt,
     ) -> Result<Option<DeviceFragility>, OverturningError> {
         let (mut failed, mut zero) = (0, 0);
         let mut observations = Vec::new();
@@ -113,7 +114,7 @@ impl DeviceFragility {
         let intensities: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
         let bands = match fragility {
             Fragility::Estimated(_) => {
-                Some(fragility_bands(&observations, &intensities, bootstrap, &Interrupt::default()).map_err(|error| {
+                Some(fragility_bands(&observations, &intensities, bootstrap, interrupt).map_err(|error| {
                     let (structure, device) = names();
                     OverturningError::Bands { structure, device, error: Box::new(error) }
                 })?)
@@ -189,16 +190,22 @@ mod tests {
         outcomes.iter().enumerate().map(run).collect()
     }
 
-    fn fit(runs: &[Run]) -> Option<DeviceFragility> {
+    fn fit_unless(interrupt: &Interrupt, runs: &[Run]) -> Result<Option<DeviceFragility>, OverturningError> {
         let all: Vec<&Run> = runs.iter().collect();
         let bootstrap = Bootstrap { resamples: 50, seed: 1, level: Level::COMMON };
-        DeviceFragility::fit(&all, (0, "pier"), (0, "none"), Measure::Pgv, bootstrap, 4.0).unwrap()
+        DeviceFragility::fit(&all, (0, "pier"), (0, "none"), Measure::Pgv, bootstrap, 4.0, interrupt)
     }
+
+    fn fit(runs: &[Run]) -> Option<DeviceFragility> {
+        fit_unless(&Interrupt::default(), runs).unwrap()
+    }
+
+    /// Intensities, and whether the block overturns: neither separated nor falling.
+    const ROCKING: [(f64, bool); 6] = [(0.5, false), (1.0, false), (1.5, true), (2.0, false), (2.5, true), (3.0, true)];
 
     #[test]
     fn blocks_that_do_not_rock_count_as_standing() {
-        let outcomes = [(0.5, false), (1.0, false), (1.5, true), (2.0, false), (2.5, true), (3.0, true)];
-        let mut all = runs(&outcomes);
+        let mut all = runs(&ROCKING);
         all.push(Run { answer: Err("it failed".to_owned()), ..all[0].clone() });
         all.push(Run { measures: [0.0; Measure::COUNT], ..all[0].clone() });
         let mut found = fit(&all).unwrap();
@@ -208,6 +215,14 @@ mod tests {
         assert_eq!(found.median_ratio, Some(1.0));
         let [tenth, half] = found.at_first.unwrap();
         assert!((tenth - 0.1).abs() < 1e-12 && (half - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn bands_are_not_made_once_the_user_asks_to_stop() {
+        let interrupt = Interrupt::default();
+        interrupt.set();
+        let stopped = fit_unless(&interrupt, &runs(&ROCKING)).unwrap_err();
+        assert!(matches!(stopped, OverturningError::Bands { error, .. } if *error == BootstrapError::Interrupted));
     }
 
     #[test]
