@@ -127,7 +127,7 @@ fn settings_are_laws_of_their_own() {
         // Plates slip at their capacity: of both flywheels at most twice that is felt.
         for (index, capacity) in [(0, 0.05), (2, 0.2)] {
             let of_law = findings.rows.iter().filter(|row| row.law == names[index]);
-            let largest = of_law.map(|row| row.peak_force_ratio).fold(0.0, f64::max);
+            let largest = of_law.filter_map(|row| row.peak_force_ratio).fold(0.0, f64::max);
             assert!(largest > 0.5 * capacity && largest <= 2.0 * capacity * (1.0 + 1e-9), "{capacity}: {largest}");
         }
     });

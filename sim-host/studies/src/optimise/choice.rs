@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::design::Design;
-use super::limit::Limits;
+use super::limit::{Limits, Quantity};
 
 /// `one` before `other` if it overturns under fewer motions, in the mean over the specimens or in their quantile; if equally many, by the smaller median rotation, then by the smaller
 /// force, and else by the order of laws, mounts and mass ratios.
@@ -16,7 +16,7 @@ pub fn preference(one: &Design, other: &Design) -> Ordering {
     a.objective
         .total_cmp(&b.objective)
         .then(a.median_rotation.total_cmp(&b.median_rotation))
-        .then(a.force_ratio.total_cmp(&b.force_ratio))
+        .then(a.asks(Quantity::Force).total_cmp(&b.asks(Quantity::Force)))
         .then(curve.cmp(&other_curve))
         .then(mass_ratio.total_cmp(&other_mass_ratio))
 }
@@ -48,7 +48,14 @@ mod tests {
     }
 
     fn scored(overturned: usize, median_rotation: f64, force_ratio: f64) -> Score {
-        Score { motions: 87, overturned, objective: overturned as f64, median_rotation, force_ratio, ..Score::default() }
+        Score {
+            motions: 87,
+            overturned,
+            objective: overturned as f64,
+            median_rotation,
+            force_ratio: Some(force_ratio),
+            ..Score::default()
+        }
     }
 
     const LIMITS: Limits = Limits { force: Some(0.3), ..Limits::NONE };

@@ -186,10 +186,9 @@ fn capital(text: &str) -> String {
 fn costs(choices: &Choices<'_>, best: &Row) -> String {
     let mut table = TextTable::new(1, ["", "asks for", "limit", "left"]);
     let score = &best.score;
-    let stands = score.stroke_m.is_some();
     let known = |quantity: Quantity| match quantity {
-        Quantity::Force => choices.limits.force_of_overturned || stands,
-        Quantity::Stroke => stands,
+        Quantity::Force => score.force_ratio.is_some(),
+        Quantity::Stroke => score.stroke_m.is_some(),
         Quantity::ToothStress => score.tooth_stress_mpa.is_some(),
         Quantity::CoilEnergy => score.coil_energy_j.is_some(),
     };
@@ -215,11 +214,11 @@ fn costs(choices: &Choices<'_>, best: &Row) -> String {
     } else {
         " in which the block stands.\n"
     };
-    if let Some(mass) = choices.structure.scene.file.block.mass_kg.filter(|_| known(Quantity::Force)) {
+    if let (Some(mass), Some(force_ratio)) = (choices.structure.scene.file.block.mass_kg, score.force_ratio) {
         text += &format!(
             "The block weighs {:.1} kN: a force of {:.1} kN.\n",
             1e-3 * mass * GRAVITY,
-            1e-3 * mass * GRAVITY * score.force_ratio
+            1e-3 * mass * GRAVITY * force_ratio
         );
     }
     text

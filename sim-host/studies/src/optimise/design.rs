@@ -55,8 +55,8 @@ pub struct Score {
     pub saved: usize,
     /// Those that overturn this one, and not the bare block.
     pub newly_overturned: usize,
-    /// Quantile of max |F|/(mg) over the motions whose force counts.
-    pub force_ratio: f64,
+    /// Quantile of max |F|/(mg) over the motions whose force counts; `None` where none does.
+    pub force_ratio: Option<f64>,
     /// Quantile of the stroke over the motions in which the block stands, m; `None` where it never does.
     pub stroke_m: Option<f64>,
     /// Quantile of the bending stress of gear teeth over the motions whose force counts, MPa; `None` where the scene has no gear.
@@ -110,7 +110,7 @@ impl Score {
         }
         // At least the share must respect a limit, which what lies between two motions would not say.
         let held = |values: &[f64]| order_statistic(values, limits.quantile);
-        score.force_ratio = held(&forces).unwrap_or(0.0);
+        score.force_ratio = held(&forces);
         score.stroke_m = held(&strokes);
         score.tooth_stress_mpa = held(&stresses);
         score.coil_energy_j = held(&energies);
@@ -118,10 +118,10 @@ impl Score {
         score
     }
 
-    /// What it asks for of `quantity`; nothing of a stroke where the block never stands, and of what the scene or the device does not have.
+    /// What it asks for of `quantity`; nothing where no motion counts, and of what the scene or the device does not have.
     pub fn asks(&self, quantity: Quantity) -> f64 {
         match quantity {
-            Quantity::Force => self.force_ratio,
+            Quantity::Force => self.force_ratio.unwrap_or(0.0),
             Quantity::Stroke => self.stroke_m.unwrap_or(0.0),
             Quantity::ToothStress => self.tooth_stress_mpa.unwrap_or(0.0),
             Quantity::CoilEnergy => self.coil_energy_j.unwrap_or(0.0),
@@ -172,10 +172,13 @@ mod tests {
         let score = Score::of(&responses, &bare(), &LIMITS, Objective::NOMINAL);
         assert_eq!((score.motions, score.overturned, score.saved, score.newly_overturned), (5, 2, 1, 1));
         // The force on a falling block counts, and the stress that it means; its travel does not.
-        assert_eq!((score.force_ratio, score.stroke_m), (0.6, Some(0.3)));
+        assert_eq!((score.force_ratio, score.stroke_m), (Some(0.6), Some(0.3)));
         assert_eq!((score.tooth_stress_mpa, score.coil_energy_j, score.asks(Quantity::CoilEnergy)), (Some(60.0), None, 0.0));
         let standing = Score::of(&responses, &bare(), &Limits { force_of_overturned: false, ..LIMITS }, Objective::NOMINAL);
-        assert_eq!((standing.force_ratio, standing.stroke_m), (0.2, Some(0.3)));
+        assert_eq!((standing.force_ratio, standing.stroke_m), (Some(0.2), Some(0.3)));
+        let fallen = vec![falls(0.5, 1.9); 5];
+        let of_none = Score::of(&fallen, &bare(), &Limits { force_of_overturned: false, ..LIMITS }, Objective::NOMINAL);
+        assert_eq!((of_none.force_ratio, of_none.asks(Quantity::Force)), (None, 0.0));
         // The median of 0.2, 0.8 and twice infinite.
         assert_eq!(score.median_rotation, f64::INFINITY);
     }
@@ -185,8 +188,8 @@ mod tests {
         let responses: Responses = (0..=10).map(|k| stands(0.1, 0.1 * f64::from(k), f64::from(k))).collect();
         let bare = responses.clone();
         let of = |quantile: f64| Score::of(&responses, &bare, &Limits { quantile, ..LIMITS }, Objective::NOMINAL);
-        assert_eq!((of(1.0).force_ratio, of(1.0).stroke_m), (1.0, Some(10.0)));
-        assert!((of(0.9).force_ratio - 0.9).abs() < 1e-15 && (of(0.5).stroke_m.unwrap() - 5.0).abs() < 1e-15);
+        assert_eq!((of(1.0).force_ratio, of(1.0).stroke_m), (Some(1.0), Some(10.0)));
+        assert!((of(0.9).force_ratio.unwrap() - 0.9).abs() < 1e-15 && (of(0.5).stroke_m.unwrap() - 5.0).abs() < 1e-15);
     }
 
     #[test]

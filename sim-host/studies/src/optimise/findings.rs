@@ -37,8 +37,8 @@ pub struct Row {
     pub saved: usize,
     /// Motions that overturn this one, and not the bare block.
     pub newly_overturned: usize,
-    /// Quantile of max |F|/(mg) over the motions whose force counts.
-    pub peak_force_ratio: f64,
+    /// Quantile of max |F|/(mg) over the motions whose force counts; null where none does.
+    pub peak_force_ratio: Option<f64>,
     /// Quantile of the stroke over the motions in which the block stands, m; null without a device, and where it never stands.
     pub stroke_m: Option<f64>,
     /// Quantile of the bending stress of gear teeth over the motions whose force counts, MPa; left out where the scene has no gear.

@@ -98,20 +98,22 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableE
 }
 
 /// What limits cost: where they are reached, and the fronts.
-fn price(choices: &Choices<'_>, findings: &Findings) -> Result<String, TableError> {
+pub(super) fn price(choices: &Choices<'_>, findings: &Findings) -> Result<String, TableError> {
     let mut page = String::new();
     if let (Some(best), Some(without), true) = (&findings.best, &findings.best_without_limits, choices.limits.any()) {
         page += "\n## What the limit costs\n\n";
-        page += &if without.overturned < best.overturned {
-            format!(
-                "Without a limit {} would overturn under {} instead of {}, with F/(mg) up to {:.4}.\n",
-                device(without),
-                share(without),
-                best.overturned,
-                without.peak_force_ratio
-            )
+        let by = by_objective(choices);
+        // A quantile over the specimens is no number of motions.
+        let [under, instead] = if by.is_empty() {
+            [share(without), best.overturned.to_string()]
         } else {
-            format!("Nothing in overturning: without a limit the best device overturns under {} too.\n", share(without))
+            [format!("{} of the motions{by}", percent(without.probability)), percent(best.probability)]
+        };
+        page += &if without.score.objective < best.score.objective {
+            let force = without.peak_force_ratio.map_or_else(String::new, |force| format!(", with F/(mg) up to {force:.4}"));
+            format!("Without a limit {} would overturn under {under} instead of {instead}{force}.\n", device(without))
+        } else {
+            format!("Nothing in overturning: without a limit the best device overturns under {under} too.\n")
         };
     }
     if !findings.limits_reached.is_empty() {

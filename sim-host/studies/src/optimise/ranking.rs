@@ -8,7 +8,7 @@ use sprag_shared::observers::outcome::Outcome;
 use super::choice::complete;
 use super::design::Design;
 use super::findings::Row;
-use super::limit::Limits;
+use super::limit::{Limits, Quantity};
 use super::motion::{Motion, Shaking};
 use super::problem::{Problem, Solution};
 use super::response::Response;
@@ -181,7 +181,7 @@ fn again(problem: &Problem<'_>, solution: &Solution, groups: &Groups, bootstrap:
         let values: Vec<f64> = contenders.iter().map(|contender| objective.of(&contender.counts(&weights))).collect();
         let least = values.iter().copied().min_by(f64::total_cmp)?;
         let tied = contenders.iter().zip(&values).filter(|(_, value)| **value == least).map(|(contender, _)| contender);
-        let merit = |contender: &&Contender<'_>| (contender.median(&weights), contender.design.score.force_ratio);
+        let merit = |contender: &&Contender<'_>| (contender.median(&weights), contender.design.score.asks(Quantity::Force));
         let ranked = tied.map(|contender| (merit(&contender), contender));
         let (_, chosen) = ranked.min_by(|(a, _), (b, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)))?;
         let unseen: Vec<u32> = weights.iter().map(|weight| u32::from(*weight == 0)).collect();

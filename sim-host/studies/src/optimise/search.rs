@@ -122,7 +122,7 @@ mod tests {
             motions: 50,
             overturned: 10 + steps as usize,
             objective: 10.0 + steps,
-            force_ratio,
+            force_ratio: Some(force_ratio),
             median_rotation: (at.mass_ratio - 3.3).abs(),
             ..Score::default()
         };

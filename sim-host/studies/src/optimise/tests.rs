@@ -1,12 +1,17 @@
-//! `[optimise]` tables: what they resolve to, and what they are refused for.
+//! `[optimise]` tables: what they resolve to, what they are refused for, and what is said of scores.
 
 use std::path::Path;
 
+use sprag_report::columns::write_csv;
 use sprag_sim::scene::device::{Kind, MountName};
 use sprag_sim::scene::drivetrain::EngagementName;
 
+use super::design::Score;
+use super::findings::{Findings, Fronts, Row};
 use super::problem::Choices;
+use super::typed_tables::design_table;
 use crate::cloud::study::{Study, StudyError};
+use crate::statistics::Level;
 
 fn parsed(text: &str) -> Result<Study, StudyError> {
     Study::parse(&format!("records = ['a.csv']\n{text}"), "study.toml", Path::new(""), &[], &[])
@@ -110,6 +115,71 @@ fn limits_say_in_which_motions_they_hold() {
     let quantile = words(&format!("{stroke}limit_quantile = 0.9"));
     assert_eq!(quantile, "stroke ≤ 0.2 m as the 90 % quantile of the motions in which the block stands");
     assert_eq!(words(standing), "no limit");
+}
+
+/// Findings with a choice of this score, and of another one without limits, under ten motions.
+fn findings([best, without]: [Score; 2]) -> Findings {
+    let row = |score: Score| Row {
+        law: "inerter".to_owned(),
+        mount: Some("base-corners".to_owned()),
+        mass_ratio: Some(0.5),
+        probability: score.objective / 10.0,
+        ..Row::of_score(&score)
+    };
+    Findings {
+        motions: 10,
+        specimens: Vec::new(),
+        designs: 2,
+        runs: 0,
+        level: Level::COMMON,
+        reference: Row::of_score(&Score::default()),
+        best: Some(row(best)),
+        nearest: None,
+        best_without_limits: Some(row(without)),
+        best_of_each: Vec::new(),
+        delay_budget: None,
+        ranking: None,
+        neighbours: Vec::new(),
+        limits_reached: Vec::new(),
+        fronts: Fronts::default(),
+        notes: Vec::new(),
+        rows: vec![row(best), row(without)],
+    }
+}
+
+/// Two specimens are counted together, or the worse of them alone.
+#[test]
+fn the_price_of_a_limit_is_in_the_measure_of_the_choice() {
+    let price = |robust: &str, scores: [(usize, f64); 2]| {
+        let study = study(&format!("[optimise]\nlargest_force_ratio = 0.3\nrobust = {{ samples = 2{robust} }}"));
+        let score = |(overturned, objective)| Score { motions: 20, overturned, objective, ..Score::default() };
+        let page = super::page::price(&Choices::of(&study).unwrap(), &findings(scores.map(score))).unwrap();
+        page.lines().nth(3).unwrap().to_owned()
+    };
+    let (mean, worst) = ("", ", quantile = 1.0");
+    let device = "inerter, base-corners, σ = 0.5000";
+    // 3 and 0 beside 2 and 2; 2 and 2 beside 2 and 0.
+    let dearer = price(worst, [(3, 3.0), (4, 2.0)]);
+    let by = "of the motions by the 100 % quantile over the specimens";
+    assert_eq!(dearer, format!("Without a limit {device} would overturn under 20 % {by} instead of 30 %."));
+    let alike = price(worst, [(4, 2.0), (2, 2.0)]);
+    assert_eq!(alike, format!("Nothing in overturning: without a limit the best device overturns under 20 % {by} too."));
+    let in_the_mean = price(mean, [(4, 2.0), (2, 1.0)]);
+    assert_eq!(in_the_mean, format!("Without a limit {device} would overturn under 2 of 20 motions instead of 4."));
+}
+
+#[test]
+fn a_force_that_no_motion_shows_is_no_number() {
+    let forces = |force_ratio: [Option<f64>; 2]| {
+        let score = |force_ratio| Score { motions: 10, force_ratio, ..Score::default() };
+        let mut csv = Vec::new();
+        write_csv(&design_table(&findings(force_ratio.map(score))), &mut csv).unwrap();
+        let text = String::from_utf8(csv).unwrap();
+        let mut rows = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let column = rows.next().unwrap().iter().position(|title| title == "peak_force_ratio").unwrap();
+        rows.map(|row| row[column].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(forces([None, Some(0.25)]), ["", "", "0.25"]);
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn design_fields<'s>(first: Fields<NamedRow<'s>>, rows: &[NamedRow<'s>]) -> Fiel
         .with(Column::number("probability_high").shown("to", Shown::Percent), |row| row.design.probability_band.high.into())
         .with(Column::count("saved").shown("saved", digits(0)), |row| row.design.saved.into())
         .with(Column::count("newly_overturned").shown("newly", digits(0)), |row| row.design.newly_overturned.into())
-        .with(Column::number("peak_force_ratio").shown("F/(mg)", digits(4)), |row| row.design.peak_force_ratio.into())
+        .with(number("peak_force_ratio").shown("F/(mg)", digits(4)), |row| row.design.peak_force_ratio.into())
         .with(number("stroke_m").shown("stroke (m)", digits(4)), |row| row.design.stroke_m.into())
         .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
         .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
