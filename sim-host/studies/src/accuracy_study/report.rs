@@ -42,6 +42,14 @@ fn floor(number: Number) -> f64 {
     }
 }
 
+/// The time of the fastest of `settings`, from the coarsest to the closest, that keeps `error` as every closer one does. Closer ones may be worse
+/// by their roundings.
+fn time_for(error: f64, settings: &[&Row]) -> Option<f64> {
+    let keeps = |row: &Row, error: f64| row.peak_error.is_some_and(|own| own <= error);
+    let trusted = settings.iter().rev().take_while(|row| keeps(row, error.max(floor(row.variant.number))));
+    trusted.filter(|row| keeps(row, error)).map(|row| row.nanoseconds).reduce(f64::min)
+}
+
 /// A table for every device: what each family of variants needs to be this accurate, and where it ends.
 pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
     let mut page = Page::new(&format!("{title}: what accuracy costs"));
@@ -64,15 +72,7 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
                 Setting::Tolerance(_) => None,
             });
             let order = order(points, floor(family.number)).map_or_else(|| "-".to_owned(), |order| format!("{order:.1}"));
-            // The cheapest setting from which on every closer one keeps the error.
-            let cost = |error: f64| {
-                let kept = |row: &&&Row| row.peak_error.is_some_and(|own| own <= error);
-                own.iter()
-                    .filter(kept)
-                    .map(|row| row.nanoseconds)
-                    .reduce(f64::min)
-                    .map_or_else(|| "-".to_owned(), |time| format!("{:.1}", time / fastest))
-            };
+            let cost = |error: f64| time_for(error, &own).map_or_else(|| "-".to_owned(), |time| format!("{:.1}", time / fastest));
             let smallest = own.iter().filter_map(|row| row.peak_error).reduce(f64::min);
             let smallest = smallest.map_or_else(|| "-".to_owned(), |error| format!("{error:.0e}"));
             let wrong = own.iter().filter_map(|row| row.wrong_share);
@@ -89,4 +89,49 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
         page.paragraph(&format!("Times are multiples of the fastest run, {fastest:.0} ns to a simulated second."));
     }
     page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy_study::variant::variants;
+
+    /// Settings with these errors, each twice as slow as the one before.
+    fn time(number: Number, error: f64, errors: &[Option<f64>]) -> Option<f64> {
+        let variant = variants(false, 1e-2).into_iter().find(|variant| variant.number == number).unwrap();
+        let row = |(index, &peak_error): (usize, &Option<f64>)| Row {
+            device: 0,
+            variant,
+            outcome_right: true,
+            peak_error,
+            history_error: None,
+            wrong_share: None,
+            steps_per_second: 1.0,
+            nanoseconds: f64::from(1_u32 << index),
+            board: None,
+            on_front: false,
+        };
+        let rows: Vec<Row> = errors.iter().enumerate().map(row).collect();
+        time_for(error, &rows.iter().collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_setting_that_is_right_by_luck_does_not_count() {
+        let errors = [None, Some(7e-3), Some(2e-2), Some(6e-3), Some(5e-5)];
+        assert_eq!(
+            [1e-1, 1e-2, 1e-4, 1e-6].map(|error| time(Number::F64Libm, error, &errors)),
+            [Some(2.0), Some(8.0), Some(16.0), None]
+        );
+        // The one that overturned, too.
+        assert_eq!(time(Number::F64Libm, 1e-2, &[Some(9e-3), None, Some(8e-3)]), Some(4.0));
+        assert_eq!(time(Number::F64Libm, 1e-2, &[Some(9e-3), None]), None);
+    }
+
+    #[test]
+    fn roundings_of_closer_settings_take_nothing_from_one() {
+        let errors = [Some(2e-3), Some(4e-7), Some(7e-6)];
+        assert_eq!(time(Number::F32Own, 1e-6, &errors), Some(2.0));
+        assert_eq!(time(Number::F64Libm, 1e-6, &errors), None);
+        assert_eq!(time(Number::F32Own, 1e-6, &[Some(4e-7), Some(7e-5)]), None);
+    }
 }
