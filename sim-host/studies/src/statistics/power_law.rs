@@ -49,7 +49,7 @@ pub struct PowerLaw {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PowerLawError {
     /// Too few of them, or more than can be counted.
-    #[error("{found} points: a power law and its dispersion need {FEWEST_POINTS} to {}", u32::MAX)]
+    #[error("{found} points: a power law and its dispersion need at least {FEWEST_POINTS}")]
     Number {
         /// The points.
         found: usize,
@@ -228,7 +228,7 @@ mod tests {
     fn what_has_no_law_is_named() {
         let error = |pairs: &[(f64, f64)]| PowerLaw::fit(&points(pairs)).unwrap_err();
         assert_eq!(error(&[]), PowerLawError::Number { found: 0 });
-        assert_eq!(error(&[(1.0, 1.0), (2.0, 2.0)]).to_string(), "2 points: a power law and its dispersion need 3 to 4294967295");
+        assert_eq!(error(&[(1.0, 1.0), (2.0, 2.0)]).to_string(), "2 points: a power law and its dispersion need at least 3");
         assert_eq!(error(&[(1.0, 1.0), (0.0, 2.0), (3.0, 1.0)]), PowerLawError::Intensity { index: 1, value: 0.0 });
         assert_eq!(error(&[(1.0, 1.0), (2.0, 2.0), (3.0, -1.0)]), PowerLawError::Demand { index: 2, value: -1.0 });
         let infinite = error(&[(1.0, f64::INFINITY), (2.0, 2.0), (3.0, 1.0)]);
