@@ -21,6 +21,15 @@ pub enum LongRunError {
         /// File with the rows.
         path: PathBuf,
     },
+    /// Rows without the page that says what they come from.
+    #[error("{}: not there, so that nothing says what the rows in {} come from; give --restart to throw them away, or another --out",
+        page.display(), rows.display())]
+    NoPage {
+        /// Where it should be.
+        page: PathBuf,
+        /// File with the rows.
+        rows: PathBuf,
+    },
     /// Rows of another scene, study, version or record.
     #[error("{}: its rows are of another run: {what} differs; give --restart to throw them away, or another --out", path.display())]
     OtherRun {

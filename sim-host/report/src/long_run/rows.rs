@@ -113,6 +113,9 @@ impl Rows {
                 let file = lock(&paths.unfinished, false)?;
                 // Where a run ended between the two renamings at its end, the page is in its place already.
                 let page = if paths.unfinished_page.exists() { &paths.unfinished_page } else { &paths.page };
+                if !page.exists() {
+                    return Err(LongRunError::NoPage { page: paths.unfinished_page, rows: paths.unfinished });
+                }
                 let mut ledger = Ledger::read(page)?;
                 ledger.require(&plan.origin, page)?;
                 ledger.command_lines.extend(Ledger::new(plan.origin.clone(), plan.shard).command_lines);

@@ -111,6 +111,20 @@ fn rows_of_another_run_are_not_mixed() {
 }
 
 #[test]
+fn rows_of_nobody_knows_what_are_not_resumed() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan(folder.path(), Shard::WHOLE, 1);
+    let [rows, page] = ["table.csv.unfinished", "table.csv.unfinished.json"].map(|name| folder.path().join(name));
+    drop(run(&plan, Start::New, 4).unwrap());
+    std::fs::remove_file(&page).unwrap();
+    let kept = std::fs::read(&rows).unwrap();
+    let refused = run(&plan, Start::Resume, 0).unwrap_err().to_string();
+    assert!(refused.starts_with(page.to_str().unwrap()) && refused.contains("give --restart"), "{refused}");
+    assert!(!refused.contains('\n') && std::fs::read(&rows).unwrap() == kept, "{refused}");
+    assert_eq!(run(&plan, Start::Restart, ROWS).unwrap().0.left().len(), 0);
+}
+
+#[test]
 fn rows_that_were_changed_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let expected = String::from_utf8(whole(folder.path())).unwrap();
