@@ -130,7 +130,7 @@ impl Run for MapArguments {
         let progress = Progress::new("cells");
         let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
         progress.finish();
-        if !whole? {
+        if !whole.map_err(|error| anyhow::anyhow!("{error}; {}", rows.interrupted()))? {
             interrupt.keep(rows.interrupted());
             return Err(rows.interrupted().into());
         }

@@ -52,6 +52,10 @@ fn an_error_within_a_map_or_a_loop_names_its_key() {
     assert_eq!(output.status.code(), Some(2));
     let message = said(&output);
     assert!(message.contains("vertical.0.amplitude_g=1: ") && message.contains("the ground would fall away"), "{message}");
+    // What is there of the map is not left without a word.
+    let rows = fs::read_to_string(Path::new(&out).join("map.csv.unfinished")).unwrap().lines().count() - 1;
+    let kept = format!("; {rows} of 9 rows are kept; the same command with --resume continues");
+    assert!(message.trim_end().ends_with(&kept), "{message}");
     let (controller, out) = (scene("controller"), folder.path().join("loop"));
     let belief = ["--set", "block.slenderness_deg=80", "--set", "controller.belief.slenderness_factor=1.2"];
     let arguments = [&["loop", &controller, "--out", out.to_str().unwrap()][..], &belief[..]].concat();
