@@ -166,8 +166,12 @@ impl Device {
             }
             other => return Err(format!("device {other:?}")),
         };
+        let carried = table.support_amplification.is_some_and(|factor| factor != 1.0)
+            || table.support_frequency_hz.is_some()
+            || table.support_record.is_some();
         let remembers = !matches!(coupling, Coupling::None | Coupling::Inerter | Coupling::Ideal);
-        let consistent = if remembers || table.kinematics.as_deref() == Some("consistent") { 1.0 } else { 0.0 };
+        let follows = carried && matches!(coupling, Coupling::Ideal);
+        let consistent = if remembers || follows || table.kinematics.as_deref() == Some("consistent") { 1.0 } else { 0.0 };
         let capacity = either(clutch.capacity_ratio, clutch.capacity_n, GRAVITY)?.map_or(f64::INFINITY, |ratio| ratio * GRAVITY);
         let brake = match &table.flywheel.brake_deceleration_m_s2 {
             None => 0.0,

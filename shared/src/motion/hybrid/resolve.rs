@@ -26,7 +26,7 @@ impl Drivetrain {
         structure.restitution_scatter.check()?;
         structure.base.is_rigid()?;
         let restitution = restitutions(&structure, sigma, self.rack.guided_mass_ratio / heavier)?;
-        let consistent = self.has_memory(device.kind) || device.kinematics == KinematicsKind::Consistent;
+        let consistent = self.needs_consistent_kinematics(device.kind) || device.kinematics == KinematicsKind::Consistent;
         let (p2, f) = (block.frequency_parameter_squared(), self.support.amplification);
         let ratio = device.mount.support_ratio();
         require("support_amplification", f, ratio.is_some() || f == 1.0, "1 for vertical devices at the base corners")?;
@@ -55,11 +55,12 @@ impl Drivetrain {
         })
     }
 
-    /// Whether flywheels have a speed of their own. Such a device moves by the consistent kinematics, whatever the structure
-    /// says: a rack whose acceleration is not the derivative of its speed would run away from a flywheel locked to it.
-    pub fn has_memory(&self, kind: DeviceKind) -> bool {
+    /// Whether the acceleration of the rack must be the derivative of its speed, whatever the structure says: a rack of the paper's kinematics would
+    /// run away from a flywheel of its own speed, and on a support of its own motion turn against the acceleration by which Eq. 10 engages.
+    pub fn needs_consistent_kinematics(&self, kind: DeviceKind) -> bool {
         match (kind, self.engagement) {
-            (DeviceKind::None, _) | (DeviceKind::ClutchedPair, Engagement::Ideal) => false,
+            (DeviceKind::None, _) => false,
+            (DeviceKind::ClutchedPair, Engagement::Ideal) => self.support.moves(),
             (DeviceKind::Inerter, engagement) => matches!(engagement, Engagement::Viscous { .. }),
             (DeviceKind::ClutchedPair, _) => true,
         }

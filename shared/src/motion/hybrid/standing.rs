@@ -116,8 +116,9 @@ impl<S: Real> HybridSystem<S> {
     ) {
         let carried = state.device.terminals.is_some();
         let turns = |state: &HybridState<S>| carried || state.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO);
-        // Up to half a wave of the support, in pieces that are close to polynomials.
-        let longest = if carried { (end - time) * S::of(0.25) } else { end - time };
+        // Up to half a wave of the support, in pieces that are close to polynomials, if the clock resolves them.
+        let quarter = (end - time) * S::of(0.25);
+        let longest = if carried && end + quarter > end { quarter } else { end - time };
         if turns(state) {
             let (mut now, mut shown) = (time, *state);
             while now < end && turns(&shown) {

@@ -118,7 +118,7 @@ impl<'a> LoopTask<'a> {
     /// Devices with a memory move by the consistent kinematics, whatever the scene says.
     fn structure(&self) -> Structure {
         let mut structure = self.scene.structure(self.index);
-        if self.drivetrain().has_memory(DeviceKind::ClutchedPair) {
+        if self.drivetrain().needs_consistent_kinematics(DeviceKind::ClutchedPair) {
             structure.device.kinematics = KinematicsKind::Consistent;
         }
         structure

@@ -51,10 +51,14 @@ impl SceneDevice {
                 (added_mass, drivetrain.rack.guided_mass_ratio) = weight.resolve(&device, block, block_mass, key)?;
             }
         }
-        if drivetrain.has_memory(device.kind) {
+        if drivetrain.needs_consistent_kinematics(device.kind) {
             if table.kinematics == Some(KinematicsName::Paper) {
-                let reason =
-                    "flywheels with a speed of their own need consistent kinematics: the paper's rack would run away from them";
+                let reason = if drivetrain.support.moves() {
+                    "clutches that follow a support of its own motion need consistent kinematics: the speed of the paper's rack is not \
+                     the integral of its acceleration"
+                } else {
+                    "flywheels with a speed of their own need consistent kinematics: the paper's rack would run away from them"
+                };
                 return Err(key("kinematics").conflict(reason));
             }
             device.kinematics = KinematicsKind::Consistent;

@@ -297,6 +297,7 @@ fn supports_that_move_are_refused_where_their_velocity_counts() {
     ] {
         assert!(parsed(moves).is_ok(), "{key}");
         refused(&[&["device.2.mount=base-corners"], moves].concat(), &[key, "vertical devices"]);
+        refused(&[&["device.2.kinematics=paper"], moves].concat(), &["device.2.kinematics", "not the integral"]);
         for (item, name) in [
             ("engagement=rigid", "engagement"),
             ("clutch.capacity_ratio=1", "clutch"),

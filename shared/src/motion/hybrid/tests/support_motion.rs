@@ -241,6 +241,22 @@ fn the_clutches_of_a_standing_block_follow_the_support() {
     }
 }
 
+/// A stretch of a few roundings of the clock, after a clutch has moved, comes to its end.
+#[test]
+fn a_stretch_that_the_clock_hardly_resolves_ends() {
+    let machine: HybridSystem<f64> =
+        moving().resolve(&of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass), false).unwrap();
+    let support = Harmonics::sine(0.2, 7.0);
+    let half = core::f64::consts::PI / 7.0;
+    for roundings in 0..8 {
+        let duration = f64::from_bits(half.to_bits() + roundings);
+        let shaking = Shaking { support: Some(&support), ..Shaking::level(&Harmonics::QUIET) };
+        let mut state = machine.at_rest();
+        machine.advance(&tight(), &mut state, shaking, duration, &LIMITS, &mut Peaks::default()).unwrap();
+        assert_eq!(state.motion.phase, Phase::Rest);
+    }
+}
+
 /// On ground that stands still the flywheel lifts the block where σ |ü_s| = g tan α, and so does one of a pair.
 #[test]
 fn it_lifts_a_block_by_its_inerter_alone() {
