@@ -14,6 +14,9 @@ use crate::motion::observer::Observer;
 /// Roundings of a speed within which it counts as zero.
 const ROUNDINGS: f64 = 64.0;
 
+/// Longest time for which a standing block's clutches are commanded at once, over 1/p.
+const STRETCH: f64 = 1.0 / 32.0;
+
 /// Sign of a number that is not zero.
 fn nonzero<S: Real>(value: S) -> Option<Sign> {
     (value != S::ZERO).then(|| Sign::of(value, Sign::Positive))
@@ -64,14 +67,18 @@ impl<S: Real> HybridSystem<S> {
         if self.lifts_now(state, shaking.at(from)) {
             return to;
         }
+        // Where a wavelet fades in, its zeros are lost in the bound of its curvature over more than this.
+        let unit = self.slenderness / self.speed;
+        let to = to.smaller(from + S::of(STRETCH) * unit);
         let [ground, support] = self.transmission.parameters.support_rates();
         let rate = |t: S| self.support_rate(shaking, t);
         let (value, slope) = rate(from);
         let own = shaking.support.map_or(S::ZERO, |segment| support.abs() * segment.curvature_bound());
         let curvature = ground.abs() * shaking.horizontal.curvature_bound() + own;
-        // Until its next zero, and whether one is here. What a zero just passed leaves is rounding, in which there is another at once.
+        // Until its next zero, and whether one is here. What a zero just passed leaves, or a wavelet has where it begins, is rounding, in which
+        // there is another at once.
         let next = |sign: Sign, here: bool| first_zero_of(rate, curvature, (from, to, rate(to).0), sign, here).unwrap_or(to);
-        let rounding = S::of(ROUNDINGS) * S::EPSILON * (slope.abs() * from + rate(S::ZERO).0.abs());
+        let rounding = S::of(ROUNDINGS) * S::EPSILON * (slope.abs() * (from + unit) + rate(S::ZERO).0.abs());
         let as_it_is = nonzero(value).filter(|_| value.abs() > rounding).map(|sign| (sign, next(sign, false)));
         let (accelerates, mut until) = match as_it_is.filter(|(_, until)| *until > from) {
             Some((sign, until)) => (Some(sign), until),
