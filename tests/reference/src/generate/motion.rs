@@ -53,9 +53,14 @@ pub fn horizontal(text: &mut String, files: &mut Vec<(String, String)>, random: 
 }
 
 /// Some of the supports that move by a factor get an oscillator, or a record beside the only motion of the ground, in its place. A wavelet
-/// whose response Sprag follows by chords has none.
+/// whose response Sprag follows by chords has none, and a guided rack behind a pulley rides on none.
 pub fn support(text: &mut String, files: &mut Vec<(String, String)>, random: &Random, threshold: f64) {
     let Some(line) = text.lines().find(|line| line.starts_with("support_amplification")).map(str::to_owned) else { return };
+    let guided =
+        text.lines().any(|line| line.starts_with("weight") && line.contains("rack_") && !line.contains("rack_on = \"block\""));
+    if guided && text.contains("pulley_ratio") {
+        return;
+    }
     // Draws of its own, so that all others stay what they were.
     let mut own = *random;
     own = Random::new(own.next_u64() ^ 1);
