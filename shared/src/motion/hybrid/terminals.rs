@@ -78,7 +78,7 @@ impl<S: Real> HybridSystem<S> {
         // Until its next zero, and whether one is here. What a zero just passed leaves, or a wavelet has where it begins, is rounding, in which
         // there is another at once.
         let next = |sign: Sign, here: bool| first_zero_of(rate, curvature, (from, to, rate(to).0), sign, here).unwrap_or(to);
-        let rounding = S::of(ROUNDINGS) * S::EPSILON * (slope.abs() * (from + unit) + rate(S::ZERO).0.abs());
+        let rounding = S::of(ROUNDINGS) * S::EPSILON * slope.abs() * (from + unit);
         let as_it_is = nonzero(value).filter(|_| value.abs() > rounding).map(|sign| (sign, next(sign, false)));
         let (accelerates, mut until) = match as_it_is.filter(|(_, until)| *until > from) {
             Some((sign, until)) => (Some(sign), until),
@@ -94,6 +94,8 @@ impl<S: Real> HybridSystem<S> {
                 None => {}
             }
         }
+        // Zeros within rounding of one another are passed together.
+        until = until.larger(from + S::of(ROUNDINGS * ROUNDINGS) * S::EPSILON * (from + unit)).smaller(to);
         let moves = moves.or(accelerates);
         let way = moves.map(Sign::opposite);
         if let (Some(way), Some(terminals)) = (way, &mut state.device.terminals) {
