@@ -69,11 +69,11 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     let interval = scene.output.interval_s.unwrap_or(end / 2000.0);
     let mut runner = Runner::new(&model, rotation, velocity, effort);
     let mut run = runner.follow(end, interval, 1e-6 * unit)?;
-    // Nothing but friction holds a block any more that leans outward beyond its balance, and springs pull at it.
+    // Nothing but friction holds a block any more that leans outward beyond its balance; springs pull at a full one.
     let state = runner.state();
     let balance = match (model.block.geometry, model.device.coupling) {
-        (_, Coupling::Elastic { .. }) => f64::INFINITY,
         (Geometry::Slender, _) => model.block.slenderness + held(&model.block, &model.device) / GRAVITY,
+        (Geometry::Full, Coupling::Elastic { .. }) => f64::INFINITY,
         (Geometry::Full, _) => model.block.slenderness + (held(&model.block, &model.device) / GRAVITY).atan(),
     };
     let beyond = state.rotation().abs() > balance && state.rotation() * state.velocity() > 0.0;

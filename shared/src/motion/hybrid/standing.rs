@@ -116,13 +116,14 @@ impl<S: Real> HybridSystem<S> {
     ) {
         let carried = state.device.terminals.is_some();
         let turns = |state: &HybridState<S>| carried || state.device.wheels.iter().any(|wheel| wheel.spin != S::ZERO);
-        // Up to half a wave of the support, in pieces that are close to polynomials, if the clock resolves them.
-        let quarter = (end - time) * S::of(0.25);
-        let longest = if carried && end + quarter > end { quarter } else { end - time };
+        // Up to half a wave of the support, in pieces that are close to polynomials.
+        let longest = if carried { (end - time) * S::of(0.25) } else { end - time };
         if turns(state) {
             let (mut now, mut shown) = (time, *state);
             while now < end && turns(&shown) {
-                let length = self.until_stop(&shown, longest.smaller(end - now));
+                let piece = self.until_stop(&shown, longest.smaller(end - now));
+                // A piece that the clock does not resolve would have no end.
+                let length = if now + piece > now { piece } else { end - now };
                 let ground = |t: S| (shaking.at(now + t), self.support_gain(&shown, shaking, now, now + t));
                 self.show_still(&shown, &ground, now, length, observer);
                 self.idle(&mut shown, length);

@@ -97,9 +97,9 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// Ends a motion at `time` (s), on ground that has come to rest ([`crate::motion::state::BlockState::end`]): outward from where friction holds the block no more.
-    /// Springs may bring it back from anywhere.
+    /// Springs may bring a full block back from anywhere.
     pub fn end(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
-        if !self.transmission.traits().springs {
+        if self.geometry() == Geometry::Slender || !self.transmission.traits().springs {
             let bound = self.push_bound(0.0, 0.0, 1.0);
             let no_return = self.geometry().point_of_no_return(self.slenderness.to_f64(), bound);
             state.motion.end(S::of(no_return), time, observer);

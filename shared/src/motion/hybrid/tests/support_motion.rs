@@ -248,15 +248,23 @@ fn the_clutches_of_a_standing_block_follow_the_support() {
 /// A stretch of a few roundings of the clock, after a clutch has moved, comes to its end.
 #[test]
 fn a_stretch_that_the_clock_hardly_resolves_ends() {
-    let machine: HybridSystem<f64> =
-        moving().resolve(&of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass), false).unwrap();
-    let support = Harmonics::sine(0.2, 7.0);
+    let structure = of(Geometry::Full, DeviceKind::ClutchedPair, Mount::CentreOfMass);
     let half = core::f64::consts::PI / 7.0;
-    for roundings in 0..8 {
-        let duration = f64::from_bits(half.to_bits() + roundings);
+    let (precise, single): (HybridSystem<f64>, HybridSystem<f32>) =
+        (moving().resolve(&structure, false).unwrap(), moving().resolve(&structure, false).unwrap());
+    for roundings in 0..64 {
+        let support = Harmonics::sine(0.2, 7.0);
         let shaking = Shaking { support: Some(&support), ..Shaking::level(&Harmonics::QUIET) };
-        let mut state = machine.at_rest();
-        machine.advance(&tight(), &mut state, shaking, duration, &LIMITS, &mut Peaks::default()).unwrap();
+        let mut state = precise.at_rest();
+        let duration = f64::from_bits(half.to_bits() + roundings);
+        precise.advance(&tight(), &mut state, shaking, duration, &LIMITS, &mut Peaks::default()).unwrap();
+        assert_eq!(state.motion.phase, Phase::Rest);
+        let support = Harmonics::sine(0.2_f32, 7.0);
+        let shaking = Shaking { support: Some(&support), ..Shaking::level(&Harmonics::QUIET) };
+        let (mut state, limits) = (single.at_rest(), Limits { overturned: 1.5, events: 100_000 });
+        let duration = f32::from_bits((half as f32).to_bits() + roundings as u32);
+        let method = FixedStep { scheme: Scheme::RungeKutta4, step: 1e-3_f32 };
+        single.advance(&method, &mut state, shaking, duration, &limits, &mut Peaks::default()).unwrap();
         assert_eq!(state.motion.phase, Phase::Rest);
     }
 }
