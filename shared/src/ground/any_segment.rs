@@ -99,6 +99,10 @@ impl<S: Real> GroundSegment<S> for AnySegment<S> {
         each!(self, segment => segment.curvature_bound())
     }
 
+    fn curvature_bound_from(&self, time: S) -> S {
+        each!(self, segment => segment.curvature_bound_from(time))
+    }
+
     fn series(&self, time: S, coefficients: &mut [S]) {
         each!(self, segment => segment.series(time, coefficients));
     }

@@ -35,6 +35,11 @@ pub trait GroundSegment<S: Real> {
     /// Upper bound of |d²(ü_g/g)/dτ²| over the piece, 1/s²; 0 for straight lines.
     fn curvature_bound(&self) -> S;
 
+    /// The same from τ on, for a shape that dies out.
+    fn curvature_bound_from(&self, _time: S) -> S {
+        self.curvature_bound()
+    }
+
     /// Taylor coefficients of ü_g/g about τ, as many as `coefficients` holds.
     fn series(&self, time: S, coefficients: &mut [S]);
 

@@ -6,7 +6,7 @@ use crate::equation::{Model, Shaking};
 use crate::guard::Guard;
 use crate::ledger::energy;
 use crate::mode::{BlockMode, Link, State};
-use crate::step::{BRAKE, IMPACT, ROTATION, SPIN, VELOCITY};
+use crate::step::{BRAKE, IMPACT, INPUT, ROTATION, SPIN, VELOCITY};
 
 /// Answers to one instant: a jolt may change the signs that caused it.
 const MOST_ANSWERS: usize = 8;
@@ -50,8 +50,14 @@ impl Model {
     fn impact(&self, state: &mut State, shaking: Shaking) {
         let before = state.clone();
         let taken = self.strike(state, shaking);
-        for i in (0..2).filter(|&i| before.wheels[i].link == Link::Locked && state.wheels[i].link == Link::Open) {
-            if self.device.coupling == Coupling::Ideal {
+        for i in (0..2).filter(|&i| before.wheels[i].link == Link::Locked) {
+            if state.wheels[i].link != Link::Open {
+                // The impulse of the flywheel on its support, which has the speed z = ẋ − v, does work there.
+                let impulse = self.device.inertance * (state.spin(i) - before.spin(i));
+                let work = -impulse * (self.rack_now(&before) - before.spin(i)) / self.block.size.powi(2);
+                state.values[IMPACT] += work;
+                state.values[INPUT] += work;
+            } else if self.device.coupling == Coupling::Ideal {
                 state.values[IMPACT] -= taken[i];
                 state.values[BRAKE] += taken[i];
             }

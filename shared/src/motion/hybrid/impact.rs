@@ -75,14 +75,23 @@ impl<S: Real> HybridSystem<S> {
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
         let ScaledParameters { inertance, rack_coupling, load_friction, .. } = self.transmission.parameters;
+        let traits = self.transmission.traits();
+        // Clutches on a support that is faster than such a block stay as they are while it is on one side.
+        let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
-            let held = -self.breakaway(standing, side, side).at(standing.ground);
+            let lifted = if carried { self.sets_out(standing, side, standing.ground) } else { *standing };
+            let held = -self.breakaway(&lifted, side, side).at(standing.ground);
             let over = |inward: bool| {
-                // Swings as short as these leave a flywheel behind that slips viscously.
-                let inertance = if self.transmission.slips_viscously() { S::ZERO } else { inertance };
-                let inertance = if inward || self.transmission.traits().permanent { inertance } else { S::ZERO };
+                let engaged = match carried {
+                    true => S::count(lifted.device.locked()),
+                    // Swings as short as these leave a flywheel behind that slips viscously.
+                    false if self.transmission.slips_viscously() => S::ZERO,
+                    false if inward || traits.permanent => S::ONE,
+                    false => S::ZERO,
+                };
+                let inertance = engaged * inertance;
                 // Outward the flywheel drives the rack.
                 let load = if inward { load_friction } else { -load_friction };
                 let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;

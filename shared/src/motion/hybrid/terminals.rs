@@ -14,7 +14,7 @@ use crate::motion::observer::Observer;
 /// Roundings of a speed within which it counts as zero.
 const ROUNDINGS: f64 = 64.0;
 
-/// Longest time for which a standing block's clutches are commanded at once, over 1/p.
+/// Time for which a standing block's clutches are commanded at once where the support is all but still, over 1/p.
 const STRETCH: f64 = 1.0 / 32.0;
 
 /// Sign of a number that is not zero.
@@ -67,14 +67,21 @@ impl<S: Real> HybridSystem<S> {
         if self.lifts_now(state, shaking.at(from)) {
             return to;
         }
-        // Where a wavelet fades in, its zeros are lost in the bound of its curvature over more than this.
         let unit = self.slenderness / self.speed;
-        let to = to.smaller(from + S::of(STRETCH) * unit);
         let [ground, support] = self.transmission.parameters.support_rates();
         let rate = |t: S| self.support_rate(shaking, t);
         let (value, slope) = rate(from);
-        let own = shaking.support.map_or(S::ZERO, |segment| support.abs() * segment.curvature_bound());
+        let own = shaking.support.map_or(S::ZERO, |segment| support.abs() * segment.curvature_bound_from(from));
         let curvature = ground.abs() * shaking.horizontal.curvature_bound() + own;
+        // Zeros within rounding of one another are passed together.
+        let apart = from + S::of(ROUNDINGS) * S::EPSILON * (from + unit);
+        // Where a wavelet fades in, its zeros are lost in the bound of its curvature over more than this.
+        let to = if curvature > S::ZERO {
+            let waves = (value.abs() / curvature).square_root().larger(slope.abs() / curvature);
+            to.smaller((from + waves.larger(S::of(STRETCH) * unit)).larger(apart))
+        } else {
+            to
+        };
         // Until its next zero, and whether one is here. What a zero just passed leaves, or a wavelet has where it begins, is rounding, in which
         // there is another at once.
         let next = |sign: Sign, here: bool| first_zero_of(rate, curvature, (from, to, rate(to).0), sign, here).unwrap_or(to);
@@ -94,8 +101,7 @@ impl<S: Real> HybridSystem<S> {
                 None => {}
             }
         }
-        // Zeros within rounding of one another are passed together.
-        until = until.larger(from + S::of(ROUNDINGS * ROUNDINGS) * S::EPSILON * (from + unit)).smaller(to);
+        until = until.larger(apart).smaller(to);
         let moves = moves.or(accelerates);
         let way = moves.map(Sign::opposite);
         if let (Some(way), Some(terminals)) = (way, &mut state.device.terminals) {
@@ -117,10 +123,15 @@ impl<S: Real> HybridSystem<S> {
         if !threshold.is_exceeded(ground) {
             return false;
         }
+        self.breakaway(&self.sets_out(state, side, ground), side, side).is_exceeded(ground)
+    }
+
+    /// The standing block of `state` as it sets out to `side`, with its clutches as they are commanded on its way.
+    pub(super) fn sets_out(&self, state: &HybridState<S>, side: Sign, ground: Accelerations<S>) -> HybridState<S> {
         let mut started = HybridState { motion: state.motion.uplifted(side), ground, ..*state };
         self.leave_base(&mut started, S::ZERO, &mut ());
         self.command(&mut started, S::ZERO, &mut ());
-        self.breakaway(&started, side, side).is_exceeded(ground)
+        started
     }
 
     /// Takes the direction of the terminals as it is now; where they stand, the one in which they accelerate.

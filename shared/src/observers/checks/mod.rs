@@ -31,14 +31,15 @@ use toe::Toe;
 /// The quantities whose largest values are sought along every interval: friction, −V, the force of each flywheel, that on the support.
 const QUANTITIES: usize = 5;
 
-/// The first that a standing block has too: its device may hang on a support that moves.
+/// The first of the device.
 const FORCES: usize = 2;
 
 /// The last of them.
 const SUPPORT: usize = 4;
 
-/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks, but for forces of the device, which
-/// a support of its own motion causes at rest too; one that stands asks for a friction of |ü_g/g|/(1 + v̈_g/g), which grows to tan α before it rocks.
+/// Observer of reactions, impulses, forces and travel. Its [`Report`] holds extremes while the block rocks, and of the device's forces and the
+/// friction under them those at rest too, which a support of its own motion causes. Without it one that stands asks for a friction of
+/// |ü_g/g|/(1 + v̈_g/g), which grows to tan α before it rocks.
 #[derive(Clone, Copy, Debug)]
 pub struct Checks<S> {
     /// Time of the present ground segment's start from the origin, s; the caller sets it.
@@ -47,6 +48,8 @@ pub struct Checks<S> {
     pub report: Report<S>,
     toe: Toe<S>,
     impulses: Impulses<S>,
+    /// The support moves otherwise than the ground.
+    on_support: bool,
     /// The first quantity that is looked at.
     first: usize,
     /// The travel of the terminals is looked at.
@@ -69,6 +72,7 @@ impl<S: Real> Checks<S> {
             report: Report::default(),
             toe: Toe::new(block, geometry, mount, account)?,
             impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
+            on_support: account.on_support,
             first: 0,
             travels: true,
             up_to_slenderness: None,
@@ -86,8 +90,8 @@ impl<S: Real> Checks<S> {
         Checks { first: SUPPORT, ..self }
     }
 
-    /// Largest force of both flywheels together on their support so far, as a snapshot has it; |F|/(λmR), 1/s². None where the block never
-    /// rocked with one engaged.
+    /// Largest force of both flywheels together on their support so far, as a snapshot has it; |F|/(λmR), 1/s². None where none was ever
+    /// engaged.
     pub fn largest_support_force(&self) -> Option<S> {
         self.report.support.map(|largest| largest.value / self.toe.over_weight(S::ONE))
     }
@@ -217,9 +221,11 @@ impl<S: Real> Observer<S> for Checks<S> {
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         if interval.to > interval.from {
-            let mut standing = Checks { first: self.first.max(FORCES), travels: false, ..*self };
+            let first = if self.on_support { self.first } else { self.first.max(FORCES) };
+            let mut standing = Checks { first, travels: false, ..*self };
             standing.look(output, interval);
-            self.report = standing.report;
+            let Report { vertical, contact_lost, .. } = self.report;
+            self.report = Report { vertical, contact_lost, ..standing.report };
         }
     }
 

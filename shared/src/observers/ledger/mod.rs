@@ -85,6 +85,9 @@ struct Balance<S> {
     rack: S,
     springs: S,
     flywheel: [S; 2],
+    /// Speed of each flywheel as that of the rack, 1/s, and by how much the rack is faster.
+    spin: [S; 2],
+    slip: [S; 2],
     engaged: [bool; 2],
     /// The flywheel turns at the rack's speed, to the last bit.
     locked: [bool; 2],
@@ -173,6 +176,8 @@ impl<S: Real> Ledger<S> {
             rack: snapshot.device.stored - snapshot.device.sprung - flywheel[0] - flywheel[1],
             springs: snapshot.device.sprung,
             flywheel,
+            spin: snapshot.device.spin,
+            slip: snapshot.device.spin.map(|spin| snapshot.terminal_velocity - spin),
             engaged: snapshot.device.engaged,
             // On a support of its own motion what is engaged is locked.
             locked: core::array::from_fn(|i| {
@@ -188,17 +193,25 @@ impl<S: Real> Ledger<S> {
         if !(impact || switch || stood) {
             return;
         }
-        let through_impacts = self.passes_impacts();
+        let (through_impacts, on_support, coupling) = (self.passes_impacts(), self.on_support, self.coupling);
         let entries = &mut self.entries;
         for i in 0..2 {
             let lost = before.flywheel[i] - after.flywheel[i];
-            let stops_with_the_block = through_impacts && before.locked[i] && (stood || (impact && after.engaged[i]));
+            let holds = after.engaged[i] || (stood && !on_support);
+            let stops_with_the_block = through_impacts && before.locked[i] && (impact || stood) && holds;
             let entry = match (before.engaged[i], after.engaged[i]) {
                 (false, true) if self.clutching == Clutching::Ideal => {
                     entries.created = entries.created - lost;
                     continue;
                 }
-                _ if stops_with_the_block => &mut entries.impact,
+                _ if stops_with_the_block => {
+                    if on_support {
+                        // Its impulse does work on the support too.
+                        let work = coupling * (before.spin[i] - after.spin[i]) * before.slip[i];
+                        (entries.input, entries.impact) = (entries.input + work, entries.impact + work);
+                    }
+                    &mut entries.impact
+                }
                 (true, false) if after.flywheel[i] == S::ZERO => &mut entries.brake,
                 _ => &mut entries.clutch,
             };

@@ -80,7 +80,10 @@ impl Effect {
                 several => format!("{several} [[vertical]] tables, summed"),
             },
             ("checks", set) if set.is_empty() => "[checks]".to_owned(),
-            ("kinematics", set) if set.is_empty() => format!("device.{index} has flywheels with a speed of their own"),
+            ("kinematics", set) if set.is_empty() => match scene.devices[index].drivetrain.support.moves() {
+                true => format!("the clutches of device.{index} follow its support"),
+                false => format!("device.{index} has flywheels with a speed of their own"),
+            },
             (_, set) => set,
         })
     }

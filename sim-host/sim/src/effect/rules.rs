@@ -13,10 +13,11 @@ use super::number::number;
 pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
     let drivetrain = &subject.device.drivetrain;
     let losses = &drivetrain.flywheel;
+    let rack = if drivetrain.support.moves() { "w = R ℓ θ̇ − n ∫ (ü_s − ü_g) dt" } else { "w = R ℓ θ̇" };
     let mut lines = Vec::new();
     let own = match (subject.device.device.kind, drivetrain.engagement) {
         (DeviceKind::ClutchedPair, Engagement::Ideal) => {
-            lines.push("an engaged flywheel moves with the rack, w = R ℓ θ̇; a released one stops at once".to_owned());
+            lines.push(format!("an engaged flywheel moves with the rack, {rack}; a released one stops at once"));
             false
         }
         (DeviceKind::ClutchedPair, Engagement::Elastic { .. } | Engagement::Viscous { .. }) => {
@@ -33,7 +34,7 @@ pub(super) fn flywheels(subject: &Subject<'_>) -> Vec<String> {
             false
         }
         (DeviceKind::None | DeviceKind::Inerter, _) => {
-            lines.push("the flywheel always moves with the rack, w = R ℓ θ̇".to_owned());
+            lines.push(format!("the flywheel always moves with the rack, {rack}"));
             false
         }
     };
@@ -161,9 +162,13 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
     }
     let drivetrain = &subject.device.drivetrain;
     let mut lines = vec![uplift(subject)];
-    if drivetrain.support.own_motion && subject.device.device.kind == DeviceKind::Inerter {
-        lines.push("the support takes σ n ℓ (ü_s − ü_g) off that push".to_owned());
-    }
+    // An inerter on a support that amplifies the ground has that in its threshold.
+    let flywheel = match subject.device.device.kind {
+        DeviceKind::ClutchedPair if drivetrain.support.moves() => Some("an engaged flywheel"),
+        DeviceKind::Inerter if drivetrain.support.own_motion => Some("the flywheel"),
+        _ => None,
+    };
+    lines.extend(flywheel.map(|flywheel| format!("{flywheel} takes σ n ℓ (ü_s − ü_g) off that push")));
     lines.push(format!("impact at θ = 0: θ̇⁺ = η θ̇⁻,  {}", restitution(subject)));
     let scatter = subject.loaded.restitution_scatter;
     if scatter.is_on() {

@@ -18,7 +18,7 @@ use crate::ground_motion::Component;
 use crate::ground_motion::oscillator::Oscillator;
 use crate::record::{RecordSummary, TIME_STEP_RANGE_S};
 
-/// A recorded motion of the support itself, horizontal; it starts with the ground, and after it the support stands still.
+/// A recorded motion of the support itself, horizontal; it starts with the ground, and after it the support keeps its speed.
 #[skip_serializing_none]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

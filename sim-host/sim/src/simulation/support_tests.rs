@@ -115,3 +115,86 @@ fn another_ground_has_no_record_of_the_support() {
     let wall = "kind = 'inerter', support_frequency_hz = 5.0, support_damping_ratio = 0.05";
     assert!(simulate(&scene(folder.path(), wall, &[]), &other, &Interrupt::default()).is_ok());
 }
+
+const WALL: &str = "support_frequency_hz = 5.0, support_damping_ratio = 0.05";
+
+#[test]
+fn single_precision_knows_a_wall_that_rings() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in KINDS {
+        for amplitude in [0.05, 0.3] {
+            let ground = format!("ground=[{{motion='sine',amplitude_g={amplitude},frequency_hz=1}}]");
+            let steps = ["accuracy={method='runge-kutta-4',step_s=0.001}", "accuracy={method='runge-kutta-4',step_s=0.001,precision='f32'}"];
+            let [double, single] = steps.map(|step| run(folder.path(), &format!("{kind}, {WALL}"), &[&ground, step]));
+            assert_eq!(double.outcome, single.outcome, "{kind} at {amplitude} g");
+            let force = |run: &DeviceRun| run.peak_force_ratio.unwrap();
+            assert!((force(&single) / force(&double) - 1.0).abs() < 1e-3, "{} and {}", force(&single), force(&double));
+        }
+    }
+}
+
+/// n F/(mg) beside a ground that hardly moves.
+#[test]
+fn a_block_that_stands_needs_friction_against_its_device() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: String = (0..100).map(|k| format!("{:.2},{}\n", 0.02 * f64::from(k), math::sin(0.25 * f64::from(k)))).collect();
+    std::fs::write(folder.path().join("wall.csv"), format!("# time_s,acc_g\n{rows}")).unwrap();
+    let ground = "ground=[{motion='sine',amplitude_g=1e-7,frequency_hz=1}]";
+    for kind in KINDS {
+        for scale in [0.3, -0.3] {
+            let device = format!("{kind}, support_record = {{ file = 'wall.csv', scale = {scale:?} }}");
+            let stands = run(folder.path(), &device, &[ground, "checks={friction_coefficient=0.05}"]);
+            assert_eq!((stands.outcome.name(), stands.impacts), ("no-rocking", 0));
+            let checks = stands.checks.unwrap();
+            let (friction, force) = (checks.friction_needed.unwrap(), checks.force_ratio.unwrap());
+            assert!(force > 0.14 && (friction - force).abs() < 1e-6, "{kind}: {friction} under a force of {force}");
+            assert!(checks.warnings.iter().any(|warning| warning.starts_with("the toe would slide:")), "{:?}", checks.warnings);
+        }
+    }
+}
+
+#[test]
+fn time_in_which_nothing_happens_has_no_events() {
+    let folder = tempfile::tempdir().unwrap();
+    for support in ["support_amplification = 1.2", WALL, "support_frequency_hz = 0.1, support_damping_ratio = 0.005"] {
+        let ground = "ground=[{motion='sine',amplitude_g=0.05,frequency_hz=1}]";
+        let device = format!("kind = 'clutched-pair', {support}");
+        let still = run(folder.path(), &device, &[ground, "run.free_time_s=100000", "block.size_m=0.05", "output.energy=false"]);
+        assert_eq!(still.outcome.name(), "no-rocking");
+    }
+}
+
+/// What an impact takes is lost, whatever the support does: ½(1 − η²)(1 + κℓ²)θ̇² of block and flywheel.
+#[test]
+fn impacts_give_no_energy() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in KINDS {
+        for factor in [4.0, 10.0, -10.0] {
+            for scale in [1.0, -1.0] {
+                let ground = format!("ground=[{{motion='half-sine',amplitude_g=0.05,frequency_hz=1,scale={scale:?}}}]");
+                let device = format!("{kind}, kinematics = 'consistent', support_amplification = {factor:?}");
+                let changes = [&ground, "block.initial_rotation_ratio=0.3", "block.restitution=0.85", "output.interval_s=0.01"];
+                let run = run(folder.path(), &device, &changes);
+                let energy = run.energy.unwrap();
+                assert!(energy.entries.residual.abs() < 1e-9, "{device}: {:?}", energy.entries);
+                let lost: Vec<f64> = energy.history.iter().map(|(_, shares)| shares.impact).collect();
+                assert!(lost.last().unwrap() > &0.0 && run.impacts > 3);
+                assert!(lost.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12), "{device}, {scale}");
+            }
+        }
+    }
+}
+
+/// A clutch on a support that moves does not follow the last bounces of the block.
+#[test]
+fn impacts_that_accumulate_are_those_that_are_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    for kind in KINDS {
+        let ground = "ground=[{motion='sine',amplitude_g=0.3,frequency_hz=1}]";
+        let ends = [1e-12, 1e-4].map(|speed| {
+            let rest = format!("run.rest_speed_ratio={speed:e}");
+            run(folder.path(), &format!("{kind}, {WALL}"), &[ground, "block.restitution=0.85", &rest])
+        });
+        assert_eq!(ends[0].impacts, ends[1].impacts, "{kind}");
+    }
+}

@@ -192,6 +192,7 @@ fn changed(
     }
     let scene = Scene::load(path, &overrides).map_err(|error| error.to_string())?;
     let same = scene.devices[own] == base.devices[index]
+        && scene.file.device[own].support_oscillator() == base.file.device[index].support_oscillator()
         && scene.geometry() == base.geometry()
         && scene.file.block.restitution == base.file.block.restitution
         && scene.file.block.scatter() == base.file.block.scatter()
@@ -226,11 +227,13 @@ mod tests {
 
     #[test]
     fn a_variant_that_the_scene_has_or_contradicts_is_left_out_with_the_reason() {
-        let sets = ["device.2.engagement=rigid", "device.1.kinematics=consistent"].map(str::to_owned);
+        let sets =
+            ["device.2.engagement=rigid", "device.1.kinematics=consistent", "device.1.support_frequency_hz=7"].map(str::to_owned);
         let (_, study) = Study::load(near_fault(), &sets).unwrap();
         let left_out = study.left_out.join("\n");
         assert!(left_out.contains("kinematics: consistent for inerter: the scene has it already"), "{left_out}");
         assert!(left_out.contains("give only one of both"), "{left_out}");
+        assert!(!left_out.contains("wall of 5 Hz"), "a wall of 7 Hz is another: {left_out}");
     }
 
     #[test]
