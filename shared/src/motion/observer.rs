@@ -71,7 +71,7 @@ pub trait Observer<S: Real> {
     /// An event, with the state after it.
     fn event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {}
 
-    /// Free decay: the remaining swings, summed in closed form.
+    /// Swings that are summed in closed form: a free decay, or impacts that accumulate to rest, which then is an event.
     fn decay(&mut self, _decay: &Decay<S>) {}
 }
 

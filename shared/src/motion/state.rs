@@ -96,6 +96,11 @@ pub enum Stopped {
         /// The mode of block and clutches then.
         mode: &'static str,
     },
+    /// More steps without an event than fit one ground segment.
+    TooManySteps {
+        /// Time in the ground segment, s.
+        time: f64,
+    },
     /// A state that is not finite.
     NotFinite {
         /// Time in the ground segment, s.
@@ -108,6 +113,7 @@ impl Stopped {
     pub fn after(self, start: f64) -> Stopped {
         match self {
             Stopped::TooManyEvents { time, mode } => Stopped::TooManyEvents { time: start + time, mode },
+            Stopped::TooManySteps { time } => Stopped::TooManySteps { time: start + time },
             Stopped::NotFinite { time } => Stopped::NotFinite { time: start + time },
         }
     }
@@ -118,8 +124,12 @@ impl core::fmt::Display for Stopped {
         match self {
             Stopped::TooManyEvents { time, mode } => write!(
                 formatter,
-                "at {time:.6} s, while {mode}, events follow one another without end; a dwell of the clutches, or a fixed step, goes \
-                 past them"
+                "at {time:.6} s, while {mode}, events follow one another without end; a dwell of the clutches, or a fixed step (beside \
+                 springs that of exponential-midpoint), goes past them"
+            ),
+            Stopped::TooManySteps { time } => write!(
+                formatter,
+                "at {time:.6} s there have been too many steps: viscous forces or springs move so fast that it takes ever more of them"
             ),
             Stopped::NotFinite { time } => write!(formatter, "at {time:.6} s the motion is no longer finite"),
         }
@@ -134,6 +144,6 @@ pub struct Limits<S> {
     /// |θ| (rad) at which an outward motion counts as overturned
     /// ([`crate::structure::block::Geometry::point_of_no_return`], or π/2).
     pub overturned: S,
-    /// Steps that one call may take.
+    /// Events that one call may follow.
     pub events: u32,
 }

@@ -259,9 +259,12 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                 let sine = pulses.sine(lane, block);
                 let push = sine.amplitude * math::sin(sine.frequency * pulses.time.0[lane] + sine.phase) * -blocks.side.0[lane];
                 let speed = blocks.velocity.0[lane];
-                let (next, (rested, impacts)) = sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain);
-                if let Some(watch) = &mut watch {
-                    watch.rests(lane, rested, impacts);
+                let (next, rested, tail) = sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain);
+                if let Some(tail) = tail {
+                    blocks.peak_acceleration.0[lane] = blocks.peak_acceleration.0[lane].max(tail.acceleration);
+                    if let Some(watch) = &mut watch {
+                        watch.rests(lane, rested, tail.impacts);
+                    }
                 }
                 match next {
                     AfterWeakImpact::Rests => rests.set(lane, true),

@@ -54,27 +54,27 @@ pub fn tail<M: Model, const PAIR: bool>(push: f64, speed: f64, block: &PlainBloc
 }
 
 impl Sine {
-    /// Decision after an impact at `time`, with the time of the rest and the impacts until then that count; what else it takes is that of [`tail`].
+    /// Decision after an impact at `time`, with the time of the rest, and the impacts ([`tail`]) until then.
     pub fn after_weak_impact<M: Model, const PAIR: bool>(
         &self,
         time: f64,
         push: f64,
         speed: f64,
         block: &PlainBlock,
-    ) -> (AfterWeakImpact, (f64, u32)) {
+    ) -> (AfterWeakImpact, f64, Option<Accumulation<f64>>) {
         if push.abs() >= 1.0 {
-            return (AfterWeakImpact::Unsettled, (time, 0));
+            return (AfterWeakImpact::Unsettled, time, None);
         }
         let tail = tail::<M, PAIR>(push, speed, block);
         let rested = time + tail.duration;
         let angle = self.frequency * rested + self.phase;
         if rested > self.duration || (self.amplitude * math::sin(angle)).abs() >= 1.0 {
-            return (AfterWeakImpact::Unsettled, (rested, tail.impacts));
+            return (AfterWeakImpact::Unsettled, rested, None);
         }
         let first = math::asin(1.0 / self.amplitude);
         let half_cycles = ((angle - first) / PI).ceil().max(0.0);
         let time = (first + half_cycles * PI - self.phase) / self.frequency;
         let next = if time >= self.duration { AfterWeakImpact::Rests } else { AfterWeakImpact::Uplifts { time, half_cycles } };
-        (next, (rested, tail.impacts))
+        (next, rested, Some(tail))
     }
 }

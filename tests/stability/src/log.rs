@@ -104,7 +104,8 @@ impl<S: Real, const EVERY: bool> Observer<S> for Log<S, EVERY> {
 
     fn decay(&mut self, decay: &Decay<S>) {
         self.peaks.decay(decay);
-        self.decays += 1;
+        // Impacts that accumulate to rest show no rotation.
+        self.decays += u32::from(decay.rotation > S::ZERO);
     }
 }
 

@@ -4,6 +4,7 @@ use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::free_decay::Decay;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
@@ -156,6 +157,10 @@ impl<S: Real> Observer<S> for Tally<S> {
         self.look(&interval.last, interval);
         self.clock(interval.start + interval.to, ulp);
         self.speed = interval.last.velocity.abs().to_f64();
+    }
+
+    fn decay(&mut self, decay: &Decay<S>) {
+        self.peaks.decay(decay);
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {

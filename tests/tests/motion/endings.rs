@@ -4,7 +4,7 @@
 use core::f64::consts::{PI, TAU};
 
 use sprag_loops::{Method, Precision};
-use sprag_shared::math::{asin, atanh, square_root};
+use sprag_shared::math::{asin, atanh, sin_cos, square_root};
 use sprag_shared::method::taylor::Taylor;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::motion::state::{BlockState, Phase};
@@ -13,6 +13,7 @@ use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_sim::batch::case::{Case, CaseResult, PulseShape, TIGHT};
+use sprag_sim::batch::lanes::in_lanes;
 use sprag_tests::scene_text::{IDEAL_DEVICES, RIGID_PAIR, runs};
 use sprag_tests::{Dice, FullLog, GEOMETRIES, Log, Segment, Start, follow, relative, release, sane, shake, tight, unit_block};
 
@@ -42,6 +43,38 @@ fn run(case: &Case, tolerance: f64) -> CaseResult {
 fn same(a: &CaseResult, b: &CaseResult, case: &Case) {
     assert_eq!((a.outcome, a.impacts), (b.outcome, b.impacts), "{case:?}");
     assert!(relative(a.end_time, b.end_time) < 1e-6, "{} and {}: {case:?}", a.end_time, b.end_time);
+}
+
+/// A block that hardly rocks bounces on both toes until it rests: inward on the toe that the ground pushes it on, at p² (1 + a) sin α/(1 + kℓ²).
+#[test]
+fn the_rest_threshold_does_not_show_in_bounces() {
+    let (alpha, amplitude_ratio) = (10.0_f64.to_radians(), 1.000_05);
+    for geometry in GEOMETRIES {
+        for device in DeviceKind::ALL {
+            let of = |rest_speed: f64| Case {
+                geometry,
+                device,
+                slenderness: alpha,
+                mass_ratio: 0.5,
+                restitution: 0.85,
+                pulse: PulseShape::Sine,
+                frequency_ratio: 4.0,
+                amplitude_ratio,
+                rest_speed,
+                ..Case::default()
+            };
+            let (sin, cos) = if geometry == Geometry::Full { sin_cos(alpha) } else { (alpha, 1.0) };
+            let carried = if device == DeviceKind::Inerter { 0.5 / (4.0 / 3.0) * cos * cos } else { 0.0 };
+            let bound = (1.0 + amplitude_ratio) * sin / alpha / (1.0 + carried);
+            let followed = [1e-3, 1e-4, 1e-6, 1e-9].map(|rest_speed| run(&of(rest_speed), TIGHT));
+            let in_lanes = in_lanes(&[of(Case::default().rest_speed)]).remove(0);
+            for result in followed.into_iter().chain(in_lanes) {
+                assert_eq!(result.outcome, Outcome::Safe);
+                let peak = result.peak_acceleration;
+                assert!(peak <= bound && relative(peak, bound) < 5e-3, "{geometry:?} {device:?}: {peak} of {bound}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -15,6 +15,9 @@ const AT_ONCE: f64 = 1e-9;
 /// Time for which a graze is followed without guards, in 1/p: their values stay below the square of that.
 pub(super) const GRAZE: f64 = 1e-6;
 
+/// Steps without an event for each event of [`crate::motion::state::Limits::events`].
+pub(super) const STEPS_PER_EVENT: u32 = 25;
+
 /// Number of steps without a gap in time, after one of `length` (s) that follows `before` of them; `unit` is 1/p (s).
 pub(super) fn crowded<S: Real>(before: u32, length: S, unit: S) -> u32 {
     if length > S::of(AT_ONCE) * unit { 0 } else { before + 1 }
@@ -46,10 +49,10 @@ mod tests {
     /// What others than the core follow without an event ends a crowd of events only where time passes.
     #[test]
     fn steps_of_others_end_a_crowd_only_where_time_passes() {
-        let (mut progress, unit) = (Progress { at_once: 7, events: 9, ..Progress::default() }, 0.5);
+        let (mut progress, unit) = (Progress { at_once: 7, steps: 9, ..Progress::default() }, 0.5);
         progress.go_on(1e-11, unit);
-        assert_eq!((progress.at_once, progress.events, progress.time), (8, 10, 1e-11));
+        assert_eq!((progress.at_once, progress.steps, progress.time), (8, 10, 1e-11));
         progress.go_on(1e-3, unit);
-        assert_eq!((progress.at_once, progress.events, progress.time), (0, 11, 1e-11 + 1e-3));
+        assert_eq!((progress.at_once, progress.steps, progress.time), (0, 11, 1e-11 + 1e-3));
     }
 }

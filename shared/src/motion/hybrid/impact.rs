@@ -12,6 +12,9 @@ use crate::motion::observer::{Event, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::Phase;
 
+/// How many times as fast as the rack a support is under whose motion the block's own is too slow to switch clutches.
+const SLOW: f64 = 1e3;
+
 impl<S: Real> HybridSystem<S> {
     /// Impact at θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
     pub(super) fn impact(
@@ -57,10 +60,16 @@ impl<S: Real> HybridSystem<S> {
             self.stay_on_base(state, time, observer);
             return time;
         }
-        let tail = self.accumulation(&standing, velocity.abs());
         let negligible = velocity.abs() <= self.rest_speed * S::EPSILON;
+        if !negligible && self.moves_its_clutches(&standing, velocity) {
+            return time;
+        }
+        let tail = self.accumulation(&standing, velocity.abs());
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
+        if velocity != S::ZERO {
+            observer.decay(&tail.decay());
+        }
         *state = standing;
         state.motion.impacts += tail.impacts;
         observer.event(Event::Rest, ends, &state.motion);
@@ -71,12 +80,19 @@ impl<S: Real> HybridSystem<S> {
         ends
     }
 
+    /// On a support of its own motion: whether a block that leaves its base at `velocity` is fast enough to switch clutches.
+    fn moves_its_clutches(&self, standing: &HybridState<S>, velocity: S) -> bool {
+        let Some(terminals) = standing.device.terminals.filter(|_| self.transmission.traits().commanded) else { return false };
+        let rack = self.body.to_terminal(&self.body.configuration(standing.motion.side.unit(), S::ZERO), velocity);
+        terminals.support.abs() < S::of(SLOW) * rack.abs()
+    }
+
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
         let ScaledParameters { inertance, rack_coupling, load_friction, .. } = self.transmission.parameters;
         let traits = self.transmission.traits();
-        // Clutches on a support that is faster than such a block stay as they are while it is on one side.
+        // There clutches stay as they are while such a block is on one side.
         let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);

@@ -42,7 +42,7 @@ use crate::motion::device_snapshot::Snapshot;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crate::structure::RestitutionScatter;
-use crowding::{GRAZE, MOST_AT_ONCE, crowded, too_many};
+use crowding::{GRAZE, MOST_AT_ONCE, STEPS_PER_EVENT, crowded, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
 use seen::Seen;
 
@@ -96,8 +96,9 @@ pub struct Progress<S> {
     pub time: S,
     /// Fixed steps so far.
     tick: u32,
-    /// Steps so far.
+    /// Steps so far that ended in an event or stood, and those that only came to their end.
     events: u32,
+    steps: u32,
     /// Steps without a gap in time before this one.
     at_once: u32,
 }
@@ -106,7 +107,7 @@ impl<S: Real> Progress<S> {
     /// Others than the core have taken the block on by `time` (s), without an event; `unit` is 1/p (s).
     pub fn go_on(&mut self, time: S, unit: S) {
         self.at_once = crowded(self.at_once, time, unit);
-        (self.time, self.events) = (self.time + time, self.events + 1);
+        (self.time, self.steps) = (self.time + time, self.steps + 1);
     }
 }
 
@@ -177,11 +178,14 @@ impl<S: Real> HybridSystem<S> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
-        let Progress { time, tick, events, at_once } = progress;
+        let Progress { time, tick, events, steps, at_once } = progress;
         // 1/p.
         let unit = self.slenderness / self.speed;
         if *events >= limits.events {
             return Err(too_many(state, *time));
+        }
+        if *steps / STEPS_PER_EVENT >= limits.events {
+            return Err(Stopped::TooManySteps { time: time.to_f64() });
         }
         *events += 1;
         if state.motion.phase == Phase::Rest {
@@ -219,7 +223,10 @@ impl<S: Real> HybridSystem<S> {
         } else if state.held {
             self.hold_springs(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
         } else {
-            self.follow(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
+            let eventful = self.follow(integrator, state, shaking, (time, stop), (limits, !grazes), observer);
+            if !eventful {
+                (*events, *steps) = (*events - 1, *steps + 1);
+            }
         }
         *at_once = crowded(*at_once, *time - before, unit);
         self.ramps(state);
@@ -230,7 +237,7 @@ impl<S: Real> HybridSystem<S> {
         Ok(())
     }
 
-    /// One step, up to its first event.
+    /// One step, up to its first event. Returns whether there was one.
     fn follow<T: ModeIntegrator<S>>(
         &self,
         integrator: &T,
@@ -239,7 +246,7 @@ impl<S: Real> HybridSystem<S> {
         (time, stop): (&mut S, S),
         (limits, guarded): (&Limits<S>, bool),
         observer: &mut dyn Observer<S>,
-    ) {
+    ) -> bool {
         let motion = &state.motion;
         // Without springs a held block needs no step.
         let traits = self.transmission.traits();
@@ -361,7 +368,10 @@ impl<S: Real> HybridSystem<S> {
             }
             End::Guard(index) => {
                 match law.watch[index] {
-                    Guard::Stuck(_) | Guard::HeldDown(..) => return self.break_away(state, *time, observer),
+                    Guard::Stuck(_) | Guard::HeldDown(..) => {
+                        self.break_away(state, *time, observer);
+                        return true;
+                    }
                     Guard::Command(_) if state.jolted => state.jolted = false,
                     Guard::Command(_) => motion.terminal_acceleration_sign = motion.terminal_acceleration_sign.opposite(),
                     watch => self.with_instant(state, *time, observer, |transmission, at| transmission.reached(at, watch)),
@@ -373,6 +383,7 @@ impl<S: Real> HybridSystem<S> {
             }
             End::Stopped(wheel) => self.stopped(state, wheel),
         }
+        end != End::Reached
     }
 
     /// A flywheel has come to a stop; what acts on it decides which way it continues, if at all.

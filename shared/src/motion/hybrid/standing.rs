@@ -93,13 +93,14 @@ impl<S: Real> HybridSystem<S> {
     }
 
     /// `time` (s), or when before that a flywheel comes to a stop, if the block does not move: it kinks the powers that observers integrate.
-    /// What a dashpot slows down, faster than all else moves, is shown in pieces.
+    /// What viscous forces slow down, faster than all else may move, is shown in pieces.
     pub(super) fn until_stop(&self, state: &HybridState<S>, time: S) -> S {
         let parameters = &self.transmission.parameters;
         let stops = state.device.wheels.iter().filter_map(|wheel| parameters.stops_within(wheel, time));
         let end = stops.fold(time, Real::smaller);
-        let spins =
-            |wheel: &&FlywheelState<S>| parameters.dashpot(wheel) > S::ZERO && wheel.spin.abs() > self.rest_speed * S::EPSILON;
+        let spins = |wheel: &&FlywheelState<S>| {
+            parameters.slowing_rate(wheel) > S::ZERO && wheel.spin.abs() > self.rest_speed * S::EPSILON
+        };
         let slow = state.device.wheels.iter().filter(spins).map(|wheel| S::of(2.0) / parameters.slowing_rate(wheel));
         slow.fold(end, Real::smaller)
     }

@@ -3,6 +3,7 @@
 //! θ is too small to change the rates: on each side the block decelerates at a₁ and falls back at a₂, so a swing that starts at
 //! θ̇ = v lasts v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
 
+use super::free_decay::Decay;
 use crate::math::scalar::Real;
 
 /// Pairs of swings that are followed in one segment of the ground when their impacts do not end them.
@@ -17,12 +18,15 @@ pub struct Accumulation<S> {
     pub swing: S,
     /// Impacts that still count.
     pub impacts: u32,
+    /// Largest |θ̈|, rad/s².
+    pub acceleration: S,
 }
 
 impl<S: Real> Accumulation<S> {
     /// After an impact that leaves the block with `speed` (rad/s) towards the side whose rates (rising a₁, falling a₂; rad/s²,
     /// above 0) are `here`, with restitution η; impacts count down to an incoming speed `counted` (rad/s).
     pub fn of(here: (S, S), there: (S, S), restitution: S, speed: S, counted: S) -> Accumulation<S> {
+        let acceleration = here.0.larger(here.1).larger(there.0).larger(there.1);
         let swing = |(rising, falling): (S, S)| {
             let fall = (falling / rising).square_root();
             (S::ONE / rising + fall / falling, fall)
@@ -33,7 +37,7 @@ impl<S: Real> Accumulation<S> {
         let ratio_there = restitution * fall_there;
         let both = ratio_here * ratio_there;
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0 };
+            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0, acceleration };
         }
         let duration = speed * (here + ratio_here * there) / (S::ONE - both);
         let mut impacts = 0;
@@ -44,7 +48,13 @@ impl<S: Real> Accumulation<S> {
             incoming = incoming * restitution * if first { fall_there } else { fall_here };
             first = !first;
         }
-        Accumulation { duration, swing: speed * (here + there), impacts }
+        Accumulation { duration, swing: speed * (here + there), impacts, acceleration }
+    }
+
+    /// As the decay of a free motion to rest, for who keeps peaks; the rotations are too small to matter.
+    pub fn decay(&self) -> Decay<S> {
+        let Accumulation { duration, impacts, acceleration, .. } = *self;
+        Decay { duration, impacts, acceleration, rotation: S::ZERO, speed: S::ZERO }
     }
 
     /// When a block whose impact at `time` they follow is at rest, in a segment of the ground that lasts until `duration` (local times,

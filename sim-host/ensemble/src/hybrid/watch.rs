@@ -2,6 +2,7 @@
 
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::free_decay::Decay;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
@@ -25,5 +26,9 @@ impl Observer<f64> for Watch<'_> {
         if let Some(checks) = &mut self.checks {
             checks.event(event, time, state);
         }
+    }
+
+    fn decay(&mut self, decay: &Decay<f64>) {
+        self.peaks.decay(decay);
     }
 }

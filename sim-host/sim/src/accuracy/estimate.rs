@@ -9,7 +9,7 @@ use serde::Serialize;
 /// Absolute errors of a result, in its own units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ErrorEstimate {
-    /// All runs end alike, and no closer look changed that.
+    /// All runs end alike, with an impact or without, and no closer look changed that.
     pub outcome_certain: bool,
     /// Of the peak rotation, max |θ|/α.
     pub peak_rotation: f64,
@@ -30,6 +30,13 @@ pub struct Compared<O> {
     pub peak_acceleration: Option<f64>,
     /// First impact.
     pub first_impact_time: Option<f64>,
+}
+
+impl<O: PartialEq> Compared<O> {
+    /// The same outcome, and an impact in both or in neither.
+    fn ends_like(&self, other: &Compared<O>) -> bool {
+        self.outcome == other.outcome && self.first_impact_time.is_some() == other.first_impact_time.is_some()
+    }
 }
 
 /// How the checks were followed.
@@ -64,7 +71,7 @@ impl ErrorEstimate {
             factor * (high - low) + floor * own.abs()
         };
         ErrorEstimate {
-            outcome_certain: checks.iter().all(|check| check.outcome == found.outcome),
+            outcome_certain: checks.iter().all(|check| found.ends_like(check)),
             peak_rotation: error(|of| of.peak_rotation),
             peak_acceleration: error(|of| of.peak_acceleration),
             first_impact_time: error(|of| of.first_impact_time),
@@ -89,7 +96,7 @@ impl ErrorEstimate {
         reach(&mut self.peak_rotation, |of| of.peak_rotation);
         reach(&mut self.peak_acceleration, |of| of.peak_acceleration);
         reach(&mut self.first_impact_time, |of| of.first_impact_time);
-        self.outcome_certain &= found.outcome == other.outcome;
+        self.outcome_certain &= found.ends_like(other);
     }
 
     /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt.
@@ -125,6 +132,17 @@ mod tests {
         let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.5), ended(2, 0.5)], Checks::Closer(1e-9));
         assert!(!estimate.outcome_certain);
         assert_eq!(estimate.relative(Some(0.5)), f64::INFINITY);
+    }
+
+    #[test]
+    fn an_impact_that_only_one_run_has_is_no_certainty() {
+        let hit = |time| Compared { first_impact_time: time, ..ended(1, 0.5) };
+        let estimate = ErrorEstimate::of(&hit(None), &[hit(Some(2.0))], Checks::Closer(1e-9));
+        assert!(!estimate.outcome_certain);
+        let mut estimate = ErrorEstimate::of(&hit(Some(2.0)), &[hit(Some(2.0))], Checks::AsClose);
+        assert!(estimate.outcome_certain);
+        estimate.widen(&hit(Some(2.0)), &hit(None));
+        assert!(!estimate.outcome_certain);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use sprag_shared::motion::state::Phase;
 
 use super::device_run::{DeviceRun, Found};
 use super::run::{Failure, Task};
-use super::stable_step::{fastest_decay, stable_step};
+use super::stable_step::stable_step_of;
 use crate::scene::accuracy::Precision;
 
 /// Runs the device of `task`.
@@ -16,19 +16,24 @@ pub(super) fn run(task: &Task<'_>) -> Result<DeviceRun, Failure> {
     let accuracy = &task.scene.file.accuracy;
     match (accuracy.precision, task.step()) {
         (Precision::F64, None) => follow(task, |_| hybrid(Method::Adaptive(accuracy.tolerance))),
-        (Precision::F64, Some(step)) => follow(task, |decay| hybrid(accuracy.method.in_steps(stable_step(step, decay)))),
-        (Precision::F32, step) => follow(task, |decay| {
-            let step = stable_step(step.unwrap_or(1e-3), decay) as f32;
+        (Precision::F64, Some(step)) => {
+            follow(task, |machine| hybrid(accuracy.method.in_steps(stable_step_of(machine, accuracy.method, step))))
+        }
+        (Precision::F32, step) => follow(task, |machine| {
+            let step = stable_step_of(machine, accuracy.method, step.unwrap_or(1e-3)) as f32;
             hybrid_f32(accuracy.method.fixed(step).unwrap_or(FixedStep { scheme: Scheme::RungeKutta4, step }))
         }),
     }
 }
 
-/// Runs the device of `task` by the method for the rate of its fastest decay (1/s).
-fn follow<S: Real>(task: &Task<'_>, method: impl FnOnce(f64) -> Box<dyn HybridLoop<S>>) -> Result<DeviceRun, Failure> {
+/// Runs the device of `task` by the method for its equations.
+fn follow<S: Real>(
+    task: &Task<'_>,
+    method: impl FnOnce(&HybridSystem<S>) -> Box<dyn HybridLoop<S>>,
+) -> Result<DeviceRun, Failure> {
     let structure = task.scene.structure(task.index);
     let machine: HybridSystem<S> = task.device().drivetrain.resolve(&structure, task.ground.vertical.is_some())?;
-    let method = method(fastest_decay(&machine));
+    let method = method(&machine);
     let loaded = task.loaded()?;
     let course = task.course(&loaded.block);
     let mut state = match task.released() {

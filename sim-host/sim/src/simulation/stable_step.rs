@@ -5,6 +5,8 @@ use sprag_shared::math;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::hybrid::HybridSystem;
 
+use crate::scene::accuracy::MethodName;
+
 /// Longest step over the time in which viscous forces use up a speed: Runge-Kutta steps of order 4 are stable up to 2.78 of it.
 const LONGEST: f64 = 0.5;
 
@@ -21,11 +23,11 @@ pub(crate) fn fastest_decay<S: Real>(machine: &HybridSystem<S>) -> f64 {
     (dashpots + parameters.bearing_rate + parameters.rack_viscous * arm * arm).to_f64()
 }
 
-/// Whether Runge-Kutta steps of this length (s) are stable for the springs and dampers of `machine`'s clutches: both engaged at once, or one whose
-/// twist relaxes while its plates slip.
-pub(crate) fn springs_bear<S: Real>(machine: &HybridSystem<S>, step: f64) -> bool {
+/// Rate at which springs and dampers of `machine`'s clutches move, at most, 1/s: both engaged at once, or one whose twist relaxes while its plates
+/// slip.
+fn fastest_spring<S: Real>(machine: &HybridSystem<S>) -> f64 {
     if !machine.transmission.traits().springs {
-        return true;
+        return 0.0;
     }
     let parameters = &machine.transmission.parameters;
     let arm = machine.body.arm(&machine.body.configuration(S::ONE, S::ZERO)).to_f64();
@@ -33,7 +35,22 @@ pub(crate) fn springs_bear<S: Real>(machine: &HybridSystem<S>, step: f64) -> boo
     let both = mobility + 2.0 * arm * arm;
     let swing = math::square_root(both * stiffness).max(both * damping);
     let relaxes = damping > 0.0 && parameters.capacity.to_f64().is_finite();
-    step * swing.max(if relaxes { stiffness / damping } else { 0.0 }) < STABLE
+    swing.max(if relaxes { stiffness / damping } else { 0.0 })
+}
+
+/// Whether Runge-Kutta steps of this length (s) are stable for the clutches' springs and dampers.
+pub(crate) fn springs_bear<S: Real>(machine: &HybridSystem<S>, step: f64) -> bool {
+    step * fastest_spring(machine) < STABLE
+}
+
+/// `step` (s) of `method`, or as large a whole part of it as is stable beside the viscous forces of `machine` and, but for the exponential midpoint
+/// method, its springs.
+pub(super) fn stable_step_of<S: Real>(machine: &HybridSystem<S>, method: MethodName, step: f64) -> f64 {
+    let step = stable_step(step, fastest_decay(machine));
+    if method == MethodName::ExponentialMidpoint || springs_bear(machine, step) {
+        return step;
+    }
+    stable_step(step, fastest_spring(machine))
 }
 
 /// `step` (s), or as large a whole part of it as is stable where speeds are used up at a rate of `decay` (1/s).
@@ -43,6 +60,8 @@ pub(crate) fn stable_step(step: f64, decay: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use sprag_shared::observers::outcome::Outcome;
+
     use crate::interrupt::Interrupt;
     use crate::scene::Scene;
     use crate::simulation::simulate;
@@ -67,6 +86,24 @@ mod tests {
             });
             let near = |other: f64, tolerance: f64| (other / peaks[0] - 1.0).abs() < tolerance;
             assert!(near(peaks[1], 1e-3) && near(peaks[2], 1e-2), "{device}: {peaks:?}");
+        }
+    }
+
+    #[test]
+    fn fixed_steps_follow_stiff_clutches() {
+        for damping in [0.1, 1.0, 3.0] {
+            for accuracy in ["", "method = 'runge-kutta-4', step_s = 5.0e-3", "method = 'exponential-midpoint', step_s = 2.0e-3"]
+            {
+                let text = format!(
+                    "block = {{ size_m = 2.0, slenderness_deg = 10.0 }}
+                    device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, clutch = {{ stiffness_ratio = 1.0e5, damping_ratio = {damping:?} }} }}]
+                    ground = [{{ motion = 'sine', amplitude_ratio = 3.0, frequency_hz = 1.0 }}]
+                    accuracy = {{ {accuracy} }}"
+                );
+                let scene = Scene::parse_with(&text, "scene", &[]).unwrap();
+                let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+                assert_eq!((run.outcome, run.impacts), (Outcome::OverturnedAfterImpact, 1), "{damping} {accuracy}");
+            }
         }
     }
 }

@@ -124,7 +124,10 @@ fn single_precision_knows_a_wall_that_rings() {
     for kind in KINDS {
         for amplitude in [0.05, 0.3] {
             let ground = format!("ground=[{{motion='sine',amplitude_g={amplitude},frequency_hz=1}}]");
-            let steps = ["accuracy={method='runge-kutta-4',step_s=0.001}", "accuracy={method='runge-kutta-4',step_s=0.001,precision='f32'}"];
+            let steps = [
+                "accuracy={method='runge-kutta-4',step_s=0.001}",
+                "accuracy={method='runge-kutta-4',step_s=0.001,precision='f32'}",
+            ];
             let [double, single] = steps.map(|step| run(folder.path(), &format!("{kind}, {WALL}"), &[&ground, step]));
             assert_eq!(double.outcome, single.outcome, "{kind} at {amplitude} g");
             let force = |run: &DeviceRun| run.peak_force_ratio.unwrap();

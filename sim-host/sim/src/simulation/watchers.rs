@@ -4,6 +4,7 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::ideal::device_view::Watched;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::free_decay::Decay;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
@@ -53,6 +54,10 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
             checks.event(event, time, state);
         }
         self.asked.event(event, time, state);
+    }
+
+    fn decay(&mut self, decay: &Decay<S>) {
+        self.peaks.decay(decay);
     }
 }
 

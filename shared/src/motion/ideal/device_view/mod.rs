@@ -15,6 +15,7 @@ use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::rest::free_decay::Decay;
 use crate::motion::state::BlockState;
 
 /// Shows an observer the motion of an ideal device as that of one with a memory, by [`Observer::device_interval`].
@@ -50,6 +51,10 @@ impl<S: Real, P: GroundSegment<S>, O: Observer<S>> Observer<S> for Watched<'_, S
     #[inline]
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         self.observer.event(event, time, state);
+    }
+
+    fn decay(&mut self, decay: &Decay<S>) {
+        self.observer.decay(decay);
     }
 }
 
