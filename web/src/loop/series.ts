@@ -8,7 +8,7 @@ export interface Curves {
   rotation: [Float64Array, Float64Array, Float64Array];
   /** θ̇/(pα): true, estimated. */
   velocity: [Float64Array, Float64Array];
-  /** θ̈/(p²α): true, estimated. */
+  /** Driving moment D/(p²α): true, estimated. */
   push: [Float64Array, Float64Array];
 }
 

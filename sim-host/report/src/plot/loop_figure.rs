@@ -38,9 +38,10 @@ pub struct LoopTrace {
     pub velocity: Vec<f64>,
     /// Estimated angular velocity over pα.
     pub velocity_estimated: Vec<f64>,
-    /// True angular acceleration over p²α.
+    /// True driving moment D over p²α; with consistent kinematics the quantity of its place that has the sign of the terminals' acceleration
+    /// (Eq. 10).
     pub push: Vec<f64>,
-    /// Estimated angular acceleration over p²α.
+    /// Estimate of the same.
     pub push_estimated: Vec<f64>,
     /// Flywheels that the clutches engage: 0 none, 1 the first, 2 the second, 3 both; higher bits are ignored.
     pub engaged: Vec<u8>,
@@ -55,7 +56,7 @@ pub struct LoopTrace {
 /// Draws a closed loop as an SVG document.
 ///
 /// Panels from top to bottom: ground acceleration (g); rotation θ/α with dashed lines at ±1 and tints where a flywheel is engaged,
-/// beside the run with the ideal pair; angular velocity and acceleration, true and estimated; and lanes with what the law wants of
+/// beside the run with the ideal pair; angular velocity and driving moment, true and estimated; and lanes with what the law wants of
 /// the true motion, the command, and what the clutches do. Every value of a lane holds until the next sample. Faults are vertical
 /// lines with their texts on top. Estimates that go far beyond the true values are cut off at the edge of their panel. Samples of
 /// the ideal pair, and faults, outside the time span of the loop are left out.
@@ -83,7 +84,7 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
     rotation_panel.guides = &[-1.0, 1.0];
     let velocity_scale = scale_with_estimate(&trace.velocity, &trace.velocity_estimated);
     let velocity_panel = stack.panel(PANEL_PX, velocity_scale, Some("θ'/(*p*α)"));
-    let push_panel = stack.panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("θ''/(*p*²α)"));
+    let push_panel = stack.panel(PANEL_PX, scale_with_estimate(&trace.push, &trace.push_estimated), Some("*D*/(*p*²α)"));
     let mut lanes = stack.panel(3.0 * LANE_PX, 0.0..1.0, None);
     lanes.y_ticks = false;
 
@@ -193,6 +194,7 @@ fn scale_with_estimate(values: &[f64], estimated: &[f64]) -> Range<f64> {
 mod tests {
     use super::*;
     use crate::plot::assert_drawn;
+    use crate::plot::formula::formula;
 
     /// Two seconds at `count` samples; no dynamics behind them.
     fn trace(count: usize) -> LoopTrace {
@@ -224,6 +226,8 @@ mod tests {
             assert!(svg.contains(name), "{name}");
         }
         assert!(!svg.contains("later"));
+        // What Eq. 10 looks at is D: θ̈ has the inertia of what is engaged in it.
+        assert!(svg.contains(&formula("*D*/(*p*²α)")) && !svg.contains(&formula("θ''")));
         assert_eq!(svg.matches("rotate(-90 ").count(), 4);
         assert_eq!(svg, loop_figure("A <title> & more", &trace(4000)).unwrap());
     }

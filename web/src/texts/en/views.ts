@@ -109,7 +109,7 @@ export const views = {
     switchesOf: (own: number, ideal: number): string => `${own} (${ideal})`,
     rotation: "rotation θ/α",
     velocity: "angular velocity θ'/(pα)",
-    push: "angular acceleration θ''/(p²α)",
+    push: "driving moment D/(p²α)",
     time: "time (s)",
     true: "true",
     estimated: "estimated",
