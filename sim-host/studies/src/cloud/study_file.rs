@@ -28,8 +28,17 @@ fn example_changes() -> BTreeMap<&'static str, f64> {
 
 /// Has the elements of a list above 0.
 pub(crate) fn each_above_zero(schema: &mut schemars::Schema) {
+    each_above(0.0, schema);
+}
+
+/// Has the elements of a list above 1.
+pub(crate) fn each_above_one(schema: &mut schemars::Schema) {
+    each_above(1.0, schema);
+}
+
+fn each_above(low: f64, schema: &mut schemars::Schema) {
     if let Some(items) = schema.get_mut("items").and_then(serde_json::Value::as_object_mut) {
-        items.insert("exclusiveMinimum".to_owned(), 0.0.into());
+        items.insert("exclusiveMinimum".to_owned(), low.into());
     }
 }
 

@@ -44,7 +44,7 @@ pub struct PulseTable {
     #[schemars(inner(range(min = 1e-6, max = 1e4)), length(min = 1))]
     pub duration_ratio: Option<Vec<f64>>,
     /// Oscillations γ of a Mavroeidis-Papageorgiou pulse.
-    #[schemars(inner(range(min = 1.0, max = 100.0)), length(min = 1))]
+    #[schemars(inner(range(max = 100.0)), transform = crate::cloud::study_file::each_above_one, length(min = 1))]
     pub oscillations: Option<Vec<f64>>,
     /// Phases ν of a Mavroeidis-Papageorgiou pulse.
     #[schemars(inner(range(min = -360.0, max = 360.0)), length(min = 1))]

@@ -220,6 +220,10 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
             "optimise.pulse.0.frequency_hz.0 is 0, but must be from 0.001 to 1000",
         ),
         (
+            "pulse = [{ motion = 'mavroeidis-papageorgiou', oscillations = [1] }]",
+            "optimise.pulse.0.oscillations.0 is 1, but must be above 1, to 100",
+        ),
+        (
             "pulse = [{ motion = 'sine', duration_s = [1] }]",
             "optimise.pulse.0.duration_s: a motion of kind \"sine\" has no such key",
         ),
