@@ -248,8 +248,16 @@ impl DeviceTable {
             }
             let remembers = engagement != Engagement::Ideal || actuation != Actuation::default();
             if remembers && let Mount::BaseCorners { .. } = device.mount {
-                let reason = "a flywheel that keeps its speed needs a horizontal mount: at the base corners each corner would have \
-                              flywheels of its own";
+                let reason = match engagement {
+                    Engagement::Ideal => {
+                        "a clutch that obeys late needs a horizontal mount: at the base corners each corner would have clutches of \
+                         its own"
+                    }
+                    _ => {
+                        "a flywheel that keeps its speed needs a horizontal mount: at the base corners each corner would have \
+                         flywheels of its own"
+                    }
+                };
                 return Err(key(if name == "flywheel" { "mount" } else { name }).conflict(reason));
             }
         }
