@@ -70,7 +70,7 @@ impl Model {
             amplification == 1.0,
             "1 for a controller: its encoder is on the support",
         )?;
-        let moves = drivetrain.support.own_motion;
+        let moves = drivetrain.support.given_apart;
         require("support_motion", 1.0, !moves, "none for a controller: its encoder is on the support")?;
         let structure = structure.loaded()?;
         let block = &structure.block;

@@ -117,7 +117,7 @@ impl<S: Real> ScaledParameters<S> {
         ScaledParameters {
             rack_push: self.rack_push * S::of(1.0 + (1.0 - ratio) * (support.amplification - 1.0)),
             support_push: S::of(mass_ratio * ratio * (support.amplification - 1.0) * p2),
-            relative_push: S::of(if support.own_motion { mass_ratio * ratio * p2 } else { 0.0 }),
+            relative_push: S::of(if support.given_apart { mass_ratio * ratio * p2 } else { 0.0 }),
             ..self
         }
     }

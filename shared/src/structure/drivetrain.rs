@@ -24,16 +24,16 @@ pub struct Rack {
 pub struct Support {
     /// f = ü_s/ü_g, its horizontal acceleration at the device over the ground's; -10 to 10, 1 where it moves with the ground.
     pub amplification: f64,
-    /// It has a motion of its own instead, which comes beside the ground's ([`Shaking::support`]).
+    /// Its motion is no such factor of the ground's, but given beside it ([`Shaking::support`]).
     ///
     /// [`Shaking::support`]: crate::motion::hybrid::mode_output::Shaking::support
-    pub own_motion: bool,
+    pub given_apart: bool,
 }
 
 impl Support {
     /// One that moves horizontally with `factor` times the ground's acceleration.
     pub fn amplified(factor: f64) -> Support {
-        Support { amplification: factor, own_motion: false }
+        Support { amplification: factor, given_apart: false }
     }
 
     /// Whether it moves otherwise than the ground.
@@ -41,8 +41,8 @@ impl Support {
         *self != Support::default()
     }
 
-    /// One of its own motion.
-    pub const MOVING: Support = Support { amplification: 1.0, own_motion: true };
+    /// One whose motion is given beside the ground's.
+    pub const MOVING: Support = Support { amplification: 1.0, given_apart: true };
 }
 
 impl Default for Support {
@@ -191,7 +191,7 @@ impl Drivetrain {
                 || rack.viscous != 0.0
                 || rack.dry_ratio != 0.0
                 || rack.load_friction != 0.0;
-            let moves = support.own_motion;
+            let moves = support.given_apart;
             require(
                 "support_amplification",
                 amplification,

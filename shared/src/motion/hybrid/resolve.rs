@@ -30,7 +30,7 @@ impl Drivetrain {
         let (p2, f) = (block.frequency_parameter_squared(), self.support.amplification);
         let ratio = device.mount.support_ratio();
         require("support_amplification", f, ratio.is_some() || f == 1.0, "1 for vertical devices at the base corners")?;
-        let (moves, carried) = (self.support.own_motion, ratio.is_some());
+        let (moves, carried) = (self.support.given_apart, ratio.is_some());
         require("support_motion", 1.0, !moves || carried, "none for vertical devices at the base corners")?;
         let ratio = ratio.unwrap_or_default();
         let rides = moves && self.rack.guided_mass_ratio > 0.0;

@@ -82,7 +82,7 @@ fn forces(subject: &Subject<'_>) -> String {
         text += " − μ_g ℓ ü_g/R";
     }
     if let (true, Some(locked)) = (moves(subject), locked(subject)) {
-        let against = if subject.device.drivetrain.support.own_motion { "(ü_s − ü_g)" } else { "(f − 1) ü_g" };
+        let against = if subject.device.drivetrain.support.given_apart { "(ü_s − ü_g)" } else { "(f − 1) ü_g" };
         text += &format!(" + {locked} ℓ n {against}/R");
     }
     text
@@ -150,7 +150,7 @@ fn resistance(subject: &Subject<'_>) -> Vec<String> {
                 number(wall.frequency_hz),
                 number(wall.damping_ratio)
             ),
-            None if drivetrain.support.own_motion => "ü_s: the record of the support".to_owned(),
+            None if drivetrain.support.given_apart => "ü_s: the record of the support".to_owned(),
             None => {
                 format!(
                     "f = ü_s/ü_g = {}: the support's acceleration over the ground's",

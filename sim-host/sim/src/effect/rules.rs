@@ -165,7 +165,7 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
     // An inerter on a support that amplifies the ground has that in its threshold.
     let flywheel = match subject.device.device.kind {
         DeviceKind::ClutchedPair if drivetrain.support.moves() => Some("an engaged flywheel"),
-        DeviceKind::Inerter if drivetrain.support.own_motion => Some("the flywheel"),
+        DeviceKind::Inerter if drivetrain.support.given_apart => Some("the flywheel"),
         _ => None,
     };
     lines.extend(flywheel.map(|flywheel| format!("{flywheel} takes σ n ℓ (ü_s − ü_g) off that push")));

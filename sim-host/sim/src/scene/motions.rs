@@ -38,7 +38,7 @@ impl GroundMotions {
     /// Those of device number `index` of `scene`, whose support may move on its own; None where its support has a record that is not one
     /// beside this ground.
     pub fn of_device(&self, scene: &Scene, index: usize) -> Option<Cow<'_, GroundMotions>> {
-        let moves = scene.devices.get(index).is_some_and(|device| device.drivetrain.support.own_motion);
+        let moves = scene.devices.get(index).is_some_and(|device| device.drivetrain.support.given_apart);
         let Some(table) = scene.file.device.get(index).filter(|_| moves) else { return Some(Cow::Borrowed(self)) };
         let beside = match (table.support_oscillator(), &table.support_record) {
             (Some(oscillator), _) => oscillator.beside(&self.horizontal, self.vertical.as_ref()),

@@ -59,7 +59,7 @@ const IDEAL: Drivetrain = Drivetrain {
     flywheel: NO_LOSSES,
     rack: NO_RACK,
     actuation: PROMPT,
-    support: Support { amplification: 1.0, own_motion: false },
+    support: Support { amplification: 1.0, given_apart: false },
 };
 const NO_LOSSES: FlywheelLosses =
     FlywheelLosses { viscous_rate: 0.0, dry_deceleration: 0.0, brake_deceleration: 0.0, drag_rate: 0.0 };
