@@ -42,7 +42,7 @@ class Accuracy(Table):
     ----------
     level
         Accuracy in place of all other keys of the table: a word, or a relative error of the peak rotation;
-        errors are reported; from 1e-15 to 0.1.
+        commands with --accuracy report errors; from 1e-15 to 0.1.
     method
         Method of integration; taylor by default.
     precision

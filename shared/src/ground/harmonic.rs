@@ -71,7 +71,7 @@ pub struct MavroeidisPapageorgiou {
     pub velocity_amplitude: f64,
     /// f, Hz; above 0.
     pub frequency: f64,
-    /// γ, number of half cycles; above 1.
+    /// γ, number of cycles: the pulse lasts γ/f; above 1.
     pub oscillations: f64,
     /// ν, rad.
     pub phase: f64,

@@ -41,7 +41,7 @@ impl RestitutionScatter {
 
     /// η of impact number `impact`, counted from 1, about `mean`, 0 to 1:
     ///
-    /// η = mean + deviation √(−2 ln u) cos 2πv, the first such value with 0 < η ≤ 1 (Box and Muller 1958; rejection),
+    /// η = mean + deviation √(−2 ln(1 − u)) cos 2πv, the first such value with 0 < η ≤ 1 (Box and Muller 1958; rejection),
     ///
     /// with u and v from words 256·impact + 2j and the next of SplitMix64, j = 0, 1, …. Its seed is the first word of the scatter's own, so that
     /// missed engagements of the same seed are independent. Neither steps nor times are asked, so that the k-th impact is the same by

@@ -48,7 +48,7 @@ pub struct LoopSummary {
     pub peak_change: Option<f64>,
     /// Impacts.
     pub impacts: u32,
-    /// Control ticks while the scene lasted.
+    /// Control ticks while the scene lasted, without those of the stillness before.
     pub ticks: u64,
     /// How good the decisions were.
     pub decisions: DecisionReport,
@@ -144,7 +144,11 @@ impl fmt::Display for LoopSummary {
         )?;
         writeln!(out, "  switches     {switches}, by the law on the true motion {ideal_switches}")?;
         let when = if self.outcome.overturned() { "when the fall began" } else { "at the end" };
-        writeln!(out, "  controller   {} {when}; {} ticks in all", self.controller_state, self.ticks)?;
+        writeln!(
+            out,
+            "  controller   {} {when}; {} ticks after the stillness before the motion",
+            self.controller_state, self.ticks
+        )?;
         for fault in &self.faults {
             writeln!(out, "  fault {}     at {:.4} s: {}", fault.code, fault.time_s, fault.fault)?;
         }

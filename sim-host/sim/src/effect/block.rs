@@ -33,7 +33,7 @@ pub const SCATTER: Effect = Effect {
     summary: "each impact draws its own restitution: no two of one block are alike",
     equation: &[
         "η_k = η + s z_k,  z_k normal with mean 0 and variance 1, drawn again until 0 < η_k ≤ 1: no impact adds energy",
-        "z_k = √(−2 ln u) cos 2πv, u and v from the seed and the impact's number k alone (SplitMix64)",
+        "z_k = √(−2 ln(1 − u)) cos 2πv, u and v from the seed and the impact's number k alone (SplitMix64)",
         "near 1 the mean moves down: by s φ(a)/Φ(a) with a = (1 − η)/s",
     ],
     source: "normal errors of many small causes, truncated; that free-rocking tests scatter so: Bachmann et al. 2018",

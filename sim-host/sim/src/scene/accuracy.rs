@@ -85,7 +85,7 @@ pub enum EventTreatment {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AccuracyTable {
-    /// Accuracy in place of all other keys of the table: a word, or a relative error of the peak rotation; errors are reported.
+    /// Accuracy in place of all other keys of the table: a word, or a relative error of the peak rotation; commands with `--accuracy` report errors.
     #[serde(default, with = "level")]
     #[schemars(with = "level::Written")]
     pub level: Option<Accuracy>,
