@@ -170,7 +170,8 @@ class Output(Table):
     Attributes
     ----------
     interval_s
-        Time between samples of the history; 1/2000 of the run without the key; from 1e-06 to 10.
+        Time between samples of the history and of the energy ledger; 1/2000 of the run without the key; from
+        1e-06 to 10.
     energy
         Whether the energy ledger is kept and plotted; false by default.
 

@@ -269,7 +269,7 @@ pub enum TimeAxisName {
 #[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutputTable {
-    /// Time between samples of the history; 1/2000 of the run without the key.
+    /// Time between samples of the history and of the energy ledger; 1/2000 of the run without the key.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-6, max = 10.0))]
     pub interval_s: Option<f64>,
