@@ -102,6 +102,9 @@ pub enum PlotError {
         /// Title of the figure.
         title: String,
     },
+    /// Peaks are drawn of blocks that do not overturn, and there is none.
+    #[error("every block overturns, so that there is no peak to draw")]
+    AllOverturn,
     /// A value to draw is not a finite number.
     #[error("`{name}` holds a number that is not finite")]
     NotFiniteValue {

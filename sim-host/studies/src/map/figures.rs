@@ -111,13 +111,21 @@ fn title(grid: &Grid, what: &str) -> FigureTitle {
     FigureTitle { text, conditions }
 }
 
-/// Peaks along the only axis, a line a device, broken where the block overturns.
+/// Peaks along the only axis, a line a device, broken where the block overturns. A device that has none is in the legend all the same, so that
+/// each looks as in every other picture of the scene.
 fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
+    let overturns = |map: &DeviceMap| map.shown.iter().all(|result| result.outcome.overturned());
+    if tally.maps.iter().all(overturns) {
+        return Err(PlotError::AllOverturn);
+    }
     let peaks: [(&str, Peak); 2] =
         [("max |*θ*|/α", |result| result.peak_rotation), ("max |*θ*''|/(*p*²α)", |result| result.peak_acceleration)];
     let lines = |peak: Peak| {
         let mut lines = Vec::new();
         for map in &tally.maps {
+            if overturns(map) {
+                lines.push(Line { name: format!("{} (overturns throughout)", map.device), ..Line::default() });
+            }
             let runs = map.shown.chunk_by(|a, b| a.outcome.overturned() == b.outcome.overturned());
             let mut first = 0;
             for run in runs {
@@ -165,7 +173,41 @@ fn ends(axis: &AxisTable, shown: &Shown) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use sprag_report::plot::assert_drawn;
+    use sprag_sim::scene::Scene;
+
     use super::*;
+
+    /// The cut of a scene with three devices, in all cells of which those that `overturn` do so.
+    fn cut_where(overturn: [bool; 3]) -> Result<String, PlotError> {
+        let scene = "
+            title = 'Cut'
+            block = { frequency_parameter_1_s = 2.0, slenderness_deg = 12.0 }
+            device = [{ kind = 'none' }, { kind = 'inerter', mass_ratio = 0.6 }, { kind = 'clutched-pair', mass_ratio = 0.6 }]
+            ground = [{ motion = 'sine', amplitude_ratio = 3.0, frequency_ratio = 2.0 }]
+            map.x = { key = 'ground.0.amplitude_ratio', from = 1.0, to = 9.0, cells = 5 }";
+        let text: toml::Table = toml::from_str(scene).unwrap();
+        let grid = Grid::new(Scene::of_table(text.clone(), "scene", &[]).unwrap(), text).unwrap();
+        let mut tally = Tally::new(&grid);
+        for row in 0..grid.table_rows() {
+            let outcome = if overturn[row / 5] { Outcome::OverturnedAfterImpact } else { Outcome::Safe };
+            tally.add(row, PulseResult { outcome, peak_rotation: 0.1 + row as f64, peak_acceleration: 1.0 });
+        }
+        let [("cut", svg)] = <[_; 1]>::try_from(figures(&grid, &tally)).unwrap() else { panic!("a cut is one picture") };
+        svg
+    }
+
+    #[test]
+    fn a_device_that_overturns_throughout_a_cut_keeps_its_look_and_its_name() {
+        // The third of the palette.
+        const BLUE: &str = "stroke=\"#0072b2\"";
+        let (all, two) = (cut_where([false; 3]).unwrap(), cut_where([true, false, false]).unwrap());
+        assert_drawn(&two);
+        assert_eq!(two.matches(BLUE).count(), all.matches(BLUE).count());
+        assert!(all.contains(BLUE) && !all.contains("overturns throughout"));
+        assert_eq!(two.matches("none (overturns throughout)").count(), 1);
+        assert_eq!(cut_where([true; 3]), Err(PlotError::AllOverturn));
+    }
 
     #[test]
     fn limits_are_round_and_few() {
