@@ -78,7 +78,10 @@ impl CaseFile {
             Some(file) if is_parquet(&self.path) => TextRows::of_parquet(file).map_err(failed)?,
             Some(file) => TextRows::of_csv(file),
         };
+        // A stream may be long in coming, even its first line.
+        let waiting = self.length.is_none().then(|| Progress::uncounted(&format!("waiting for cases on {name}")));
         let titles = rows.titles().map_err(failed)?;
+        drop(waiting);
         let columns = CaseColumns::of(&titles).map_err(|error| anyhow!("{name}: {error}"))?;
         let (place, length): (fn(u64) -> Place, _) = match &rows {
             TextRows::Csv(_) => (Place::Line, self.length.map(|bytes| (bytes, "bytes of cases"))),

@@ -260,6 +260,17 @@ fn commands_that_keep_no_rows_say_so() {
 }
 
 #[test]
+fn a_batch_says_that_it_waits_for_cases() {
+    let folder = tempfile::tempdir().unwrap();
+    let waits = |text: &str| text.contains("waiting for cases on standard input, ");
+    let mut terminal = sprag(folder.path(), 100, &["batch", "-", "--out", "results.csv"]);
+    terminal.until(waits);
+    terminal.control_c();
+    let (code, text) = terminal.ended();
+    assert!(code == 130 && waits(&text), "{code}: {text:?}");
+}
+
+#[test]
 fn short_runs_end_well_on_a_terminal() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
