@@ -59,8 +59,8 @@ pub struct MapArguments {
     /// Leave out the axis up: a cut along x.
     #[arg(long, conflicts_with = "y")]
     pub cut: bool,
-    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg. Takes many times as
-    /// long as the map, a minute and more for 512 x 512 cells.
+    /// Trace the boundaries between outcomes to a relative 1e-6 of the axes' values: boundaries.csv and boundaries.svg. Follows up to
+    /// --evaluations blocks for each device, however few cells the map has; --resume traces them from the start.
     #[arg(long)]
     pub refine: bool,
     /// Most blocks that --refine follows for one device; what stays coarser is reported.
@@ -135,7 +135,14 @@ impl Run for MapArguments {
             return Err(rows.interrupted().into());
         }
         let path = rows.finish()?;
-        interrupt.keep(resumable("all rows", &path));
+        interrupt.keep(if self.refine && shard == Shard::WHOLE {
+            format!(
+                "all rows are kept in {}; the same command with --resume traces the boundaries from the start",
+                path.display()
+            )
+        } else {
+            resumable("all rows", &path)
+        });
         if shard != Shard::WHOLE {
             context.print(format_args!("shard {shard}: {}\n", path.display()));
             return Ok(Completion::Complete);

@@ -198,13 +198,16 @@ fn map_keeps_its_rows_and_resumes() {
     resumes(folder.path(), &large, "map/map.csv.unfinished");
 }
 
+/// What an interrupted map says that has all its cells.
+const BOUNDARIES: &str = "all rows are kept in map/map.csv; the same command with --resume traces the boundaries from the start";
+
 #[test]
 fn map_with_boundaries_shows_what_it_traces() {
     let folder = tempfile::tempdir().unwrap();
     let figure = scene("figure08");
     let few = ["--set", "map.x.cells=6", "--set", "map.y.cells=5", "--refine", "--out", "map"];
     let arguments = [&["map", &figure], &few[..]].concat();
-    let text = stopped(folder.path(), &arguments, "Ctrl-C", "all rows are kept in map/map.csv; the same command with --resume");
+    let text = stopped(folder.path(), &arguments, "Ctrl-C", BOUNDARIES);
     assert!(text.contains("(at most 6,000,000) on boundaries so far, "), "{text:?}");
     let text = ends_well(folder.path(), &[&arguments[..], &["--evaluations", "200", "--resume"]].concat());
     assert!(text.contains("evaluations"), "{text:?}");
