@@ -415,17 +415,26 @@ mod tests {
     #[test]
     fn whatever_is_not_a_plain_pulse_is_simulated() {
         let scene = |change: &str| Scene::parse_with(SCENE, "scene", &[change.to_owned()]).unwrap();
-        assert!(pulsed(&scene("block.restitution=0.7"), 1).is_some());
+        for change in
+            ["block.restitution=0.7", "accuracy.tolerance=1e-15", "accuracy.tolerance=1e-6", "run.rest_speed_ratio=1e-6"]
+        {
+            assert!(pulsed(&scene(change), 1).is_some(), "{change}");
+        }
         for change in [
             "ground.0.start_s=1.0",
             "ground.0.motion=\"half-sine\"",
             "block.initial_rotation_ratio=0.1",
             "accuracy.step_s=0.001",
             "accuracy.level=\"tight\"",
+            "accuracy.tolerance=1e-16",
+            "run.rest_speed_ratio=1e-3",
             "device.1.kinematics=\"consistent\"",
         ] {
             assert_eq!(pulsed(&scene(change), 1), None, "{change}");
         }
+        // Lanes of real devices know the speed at which a block comes to rest.
+        assert!(scene("run.rest_speed_ratio=1e-3").hybrid_system(1).is_some());
+        assert!(scene("accuracy.tolerance=1e-16").hybrid_system(1).is_none());
     }
 
     #[test]
