@@ -129,7 +129,8 @@ impl core::fmt::Display for Stopped {
             ),
             Stopped::TooManySteps { time } => write!(
                 formatter,
-                "at {time:.6} s there have been too many steps: viscous forces or springs move so fast that it takes ever more of them"
+                "at {time:.6} s there have been too many steps: viscous forces or springs move too fast for so long a motion; beside \
+                 springs exponential-midpoint needs fewer"
             ),
             Stopped::NotFinite { time } => write!(formatter, "at {time:.6} s the motion is no longer finite"),
         }

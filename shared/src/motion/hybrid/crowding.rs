@@ -16,7 +16,7 @@ const AT_ONCE: f64 = 1e-9;
 pub(super) const GRAZE: f64 = 1e-6;
 
 /// Steps without an event for each event of [`crate::motion::state::Limits::events`].
-pub(super) const STEPS_PER_EVENT: u32 = 25;
+pub(super) const STEPS_PER_EVENT: u32 = 5;
 
 /// Number of steps without a gap in time, after one of `length` (s) that follows `before` of them; `unit` is 1/p (s).
 pub(super) fn crowded<S: Real>(before: u32, length: S, unit: S) -> u32 {
