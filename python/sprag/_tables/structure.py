@@ -378,8 +378,8 @@ class Inerter(Table):
         Travel of the terminal over that of the tying point or corner; of "tying-point" and "base-corners";
         above 0; 1.0 by default.
     kinematics
-        Acceleration of the terminals; always "consistent" where flywheels have a speed of their own, or
-        clutches follow a support of its own motion; paper by default.
+        Acceleration of the terminals; "consistent" for flywheels that keep their speed, and clutches that
+        follow a support; paper by default.
     engagement
         How the flywheels of a clutched pair are coupled, in the place of clutch; ideal by default.
     flywheel
@@ -459,8 +459,8 @@ class ClutchedPair(Table):
         Travel of the terminal over that of the tying point or corner; of "tying-point" and "base-corners";
         above 0; 1.0 by default.
     kinematics
-        Acceleration of the terminals; always "consistent" where flywheels have a speed of their own, or
-        clutches follow a support of its own motion; paper by default.
+        Acceleration of the terminals; "consistent" for flywheels that keep their speed, and clutches that
+        follow a support; paper by default.
     engagement
         How the flywheels of a clutched pair are coupled, in the place of clutch; ideal by default.
     flywheel

@@ -13,6 +13,7 @@ use sprag_shared::math;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::free_decay::Decay;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::ledger::{Account, Clutching};
@@ -98,6 +99,10 @@ impl Observer<f64> for Both {
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.0.event(event, time, state);
         self.1.event(event, time, state);
+    }
+
+    fn decay(&mut self, decay: &Decay<f64>) {
+        self.0.decay(decay);
     }
 }
 

@@ -67,9 +67,7 @@ impl<S: Real> HybridSystem<S> {
         let tail = self.accumulation(&standing, velocity.abs());
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
-        if velocity != S::ZERO {
-            observer.decay(&tail.decay());
-        }
+        observer.decay(&tail.decay());
         *state = standing;
         state.motion.impacts += tail.impacts;
         observer.event(Event::Rest, ends, &state.motion);

@@ -18,7 +18,7 @@ pub struct Accumulation<S> {
     pub swing: S,
     /// Impacts that still count.
     pub impacts: u32,
-    /// Largest |θ̈|, rad/s².
+    /// Largest |θ̈|, rad/s²; 0 where the block does not bounce at all.
     pub acceleration: S,
 }
 
@@ -26,7 +26,8 @@ impl<S: Real> Accumulation<S> {
     /// After an impact that leaves the block with `speed` (rad/s) towards the side whose rates (rising a₁, falling a₂; rad/s²,
     /// above 0) are `here`, with restitution η; impacts count down to an incoming speed `counted` (rad/s).
     pub fn of(here: (S, S), there: (S, S), restitution: S, speed: S, counted: S) -> Accumulation<S> {
-        let acceleration = here.0.larger(here.1).larger(there.0).larger(there.1);
+        let largest = here.0.larger(here.1).larger(there.0).larger(there.1);
+        let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         let swing = |(rising, falling): (S, S)| {
             let fall = (falling / rising).square_root();
             (S::ONE / rising + fall / falling, fall)

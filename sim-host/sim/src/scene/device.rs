@@ -127,7 +127,7 @@ pub struct DeviceTable {
     /// Travel of the terminal over that of the tying point or corner; of "tying-point" and "base-corners".
     #[schemars(extend("exclusiveMinimum" = 0.0, "default" = 1.0))]
     pub pulley_ratio: Option<f64>,
-    /// Acceleration of the terminals; always "consistent" where flywheels have a speed of their own, or clutches follow a support of its own motion.
+    /// Acceleration of the terminals; "consistent" for flywheels that keep their speed, and clutches that follow a support.
     #[schemars(extend("default" = KinematicsName::Paper))]
     pub kinematics: Option<KinematicsName>,
     /// How the flywheels of a clutched pair are coupled, in the place of `clutch`.
