@@ -25,6 +25,28 @@ test("a link that is opened again gives the same digest", async (t) => {
   assert.ok(hash.length < 2000, "short enough to be sent");
 });
 
+test("the way back leads to the scene of each address", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  await choose(page, EXAMPLES.figure08);
+  const second = await anotherDigest(page, first);
+  const hash = await until("the scene in the address", async () => {
+    const now = new URL(page.url()).hash;
+    return now.startsWith("#s=") && now;
+  });
+  const again = await open(t);
+  await thisDigest(again, first);
+  await again.evaluate((to) => {
+    location.hash = to;
+  }, hash);
+  await thisDigest(again, second);
+  await again.waitForTimeout(600);
+  await again.evaluate(() => history.back());
+  await thisDigest(again, first);
+  await again.evaluate(() => history.forward());
+  await thisDigest(again, second);
+});
+
 test("a scene that is too long for a link is said to be, and no link is copied", async (t) => {
   const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
   await anotherDigest(page, null);

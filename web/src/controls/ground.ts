@@ -69,7 +69,8 @@ function setMotion(draft: Draft, store: Store, motion: string): void {
   const tables: Record<string, () => Table> = {
     rectangular: () => pulse({ amplitude_m_s2: amplitude, duration_s: draft.ground("duration_s") ?? 0.25 }),
     "mavroeidis-papageorgiou": () => pulse({ velocity_amplitude_m_s: 0.8, frequency_hz: frequency, oscillations: 2, phase_deg: 0 }),
-    record: () => pulse({ file: store.source.records[0]?.name ?? "" }),
+    // The last one is what was dropped.
+    record: () => pulse({ file: store.source.records.at(-1)?.name ?? "" }),
   };
   const table = tables[motion]?.() ?? pulse({ amplitude_m_s2: amplitude, frequency_hz: frequency });
   draft.replaceGrounds([table, ...draft.grounds.slice(1)]);

@@ -18,7 +18,10 @@ export function mapCsv({ about, fields }: Filling): string {
         return;
       }
       const y = about.yKey === null ? "" : `,${number(about.y[Math.floor(cell / field.columns)] ?? Number.NaN)}`;
-      const peaks = [field.peak, field.acceleration].map((all) => (overturned(outcome) ? "" : number(all[cell] ?? Number.NaN)));
+      const peaks = [field.peak, field.acceleration].map((all) => {
+        const peak = all[cell] ?? Number.NaN;
+        return overturned(outcome) || Number.isNaN(peak) ? "" : number(peak);
+      });
       lines.push(`${name},${number(about.x[cell % field.columns] ?? Number.NaN)}${y},${OUTCOME_NAMES[outcome] ?? ""},${peaks.join(",")}`);
     });
   });

@@ -27,14 +27,22 @@ export async function openAddress(store: Store): Promise<void> {
     }
     fits = packed !== null;
     const fragment = packed ?? "";
+    written = fragment;
     if (fragment !== location.hash) {
-      written = fragment;
       history.replaceState(null, "", fragment === "" ? location.pathname + location.search : fragment);
     }
   };
   addEventListener("hashchange", () => {
-    if (isPacked(location.hash) && location.hash !== written) {
-      void read(store, location.hash);
+    const { hash } = location;
+    if (hash === written) {
+      return;
+    }
+    if (isPacked(hash)) {
+      written = hash;
+      void read(store, hash);
+    } else if (hash === "") {
+      written = hash;
+      store.open({ text: startText, records: [] });
     }
   });
   if (isPacked(location.hash)) {
