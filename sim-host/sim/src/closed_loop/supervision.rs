@@ -10,13 +10,40 @@ use sprag_shared::structure::block::GRAVITY;
 use super::design::{SensorDesign, delay};
 use crate::scene::controller::{ControllerTable, SafeStateName};
 use crate::sensor::noise::output_deviation;
-use crate::sensor::{Inertial, Suite};
+use crate::sensor::{Inertial, Sampling, Suite};
 
 /// Noise peaks over its standard deviation, once in some 1e9 readings.
 const PEAK: f64 = 6.0;
 
 /// Readings missed before a sensor is stale, the next one due.
 const MISSED: f64 = 3.0;
+
+/// Time between readings, over 1/bandwidth, below which a low-pass lets one follow the other, so that noise repeats them more often than
+/// [`stuck_time`] counts with.
+const FOLLOWING: f64 = 0.09;
+
+/// Time between readings that count as independent behind such a low-pass, over 1/bandwidth. Noise of 1.25 steps behind one of 42 Hz, read
+/// at 2 kHz, repeats a reading for 1.9/bandwidth once in 1e7 readings, and for some 2.5/bandwidth once in 1e9; 17 independent readings take
+/// 4.3/bandwidth.
+const INDEPENDENT: f64 = 0.25;
+
+/// Longest time for which a monitor may wait, s.
+const LONGEST_WAIT: f32 = 10.0;
+
+/// Time between readings of `sensor` that its noise makes independent, s; new ones are `between` (s) apart.
+fn independent(sensor: &Inertial, between: f64) -> f64 {
+    if sensor.bandwidth > 0.0 && between * sensor.bandwidth < FOLLOWING { INDEPENDENT / sensor.bandwidth } else { between }
+}
+
+/// Time between new readings at ticks of `period` (s), s.
+fn between_readings(sampling: &Sampling, period: f64) -> f64 {
+    if sampling.rate > 0.0 { (1.0 / sampling.rate).max(period) } else { period }
+}
+
+/// Without a new reading for this long a sensor misses some, s.
+fn missing(sampling: &Sampling, period: f64) -> f64 {
+    MISSED * between_readings(sampling, period) + sampling.latency
+}
 
 /// Supervision of sensors and clutches; `actuation` (s) is the time from a command to a clutch that has moved.
 pub fn supervision(
@@ -35,11 +62,14 @@ pub fn supervision(
         output_deviation(sensor.noise_density, sensor.bandwidth, rate)
     };
     let limits = |sensor: &Inertial, default: SensorLimits| {
-        let between = if sensor.sampling.rate > 0.0 { (1.0 / sensor.sampling.rate).max(period) } else { period };
-        let stuck =
-            if sensor.resolution > 0.0 { stuck_time((noise(sensor) / sensor.resolution) as f32, between as f32) } else { 0.0 };
+        let between = independent(sensor, between_readings(&sensor.sampling, period));
+        let stuck = if sensor.resolution > 0.0 {
+            stuck_time((noise(sensor) / sensor.resolution) as f32, between as f32).min(LONGEST_WAIT)
+        } else {
+            0.0
+        };
         SensorLimits {
-            stale_time: f64::from(default.stale_time).max(MISSED * between + sensor.sampling.latency) as f32,
+            stale_time: f64::from(default.stale_time).max(missing(&sensor.sampling, period)) as f32,
             stuck_time: stuck,
             // Where noise does not move a reading by a step, equal readings say nothing.
             stuck_time_moving: if sensor.resolution > 0.0 { stuck } else { default.stuck_time_moving },
@@ -53,6 +83,8 @@ pub fn supervision(
     let counts = lever * block.size() / encoder.resolution;
     let larger = |default: f32, value: f64| f64::from(default).max(value) as f32;
     let gyroscope_delay = delay(gyroscope.bandwidth, &gyroscope.sampling);
+    // 0 of one that is read at once; a reading is held for as long, whoever keeps the clock.
+    let encoder_delay = delay(0.0, &Sampling { synchronous: false, ..encoder.sampling });
     Parameters {
         period: period as f32,
         monitor: MonitorParameters {
@@ -63,7 +95,7 @@ pub fn supervision(
                 ..limits(ground_accelerometer, monitor.ground_accelerometer)
             },
             encoder: EncoderLimits {
-                stale_time: larger(monitor.encoder.stale_time, MISSED * period),
+                stale_time: larger(monitor.encoder.stale_time, missing(&encoder.sampling, period)),
                 counts_per_radian: if counts <= 1e9 { counts as f32 } else { 0.0 },
                 travel: 0,
             },
@@ -71,7 +103,7 @@ pub fn supervision(
             slow_contradiction_time: larger(monitor.slow_contradiction_time, 64.0 * period),
             rest_tolerance: larger(monitor.rest_tolerance, PEAK * noise(block_accelerometer).max(noise(ground_accelerometer))),
             rate_tolerance: larger(monitor.rate_tolerance, PEAK * noise(gyroscope)),
-            sensor_delay: larger(monitor.sensor_delay, 2.0 * gyroscope_delay + 2.0 * period),
+            sensor_delay: larger(monitor.sensor_delay, 2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay),
             moving_rate: larger(monitor.moving_rate, PEAK * noise(gyroscope)),
             gravity: GRAVITY as f32,
             ..monitor
@@ -95,5 +127,87 @@ pub fn supervision(
         shaking: larger(defaults.shaking, PEAK * noise(ground_accelerometer)),
         moving_counts: (10e-6 / encoder.resolution).clamp(2.0, 1e6) as i32,
         ..defaults
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::LoopScene;
+    use super::super::plant::Extremes;
+    use super::*;
+    use crate::interrupt::Interrupt;
+    use crate::scene::Scene;
+    use crate::sensor::preset::{ACCELEROMETERS, GYROSCOPES};
+
+    /// A loop over a pulse with `sensors`, tables of TOML.
+    fn desk(sensors: &str) -> LoopScene {
+        let text = format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 12.0 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid' }}]
+            ground = [{{ motion = 'sine', amplitude_g = 0.4, frequency_hz = 1.3 }}]
+            [controller]
+            sensors = {{ {sensors} }}"
+        );
+        LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
+    }
+
+    /// What its supervisor allows.
+    fn monitor(sensors: &str) -> MonitorParameters {
+        let (desk, interrupt) = (desk(sensors), Interrupt::default());
+        let task = desk.task(0, 1, &interrupt);
+        let (structure, table) = (task.believed().unwrap(), &desk.controller);
+        let design = SensorDesign::new(&structure, &desk.suite, table.estimator, 5e-4, table.shock_s, 0.02).unwrap();
+        supervision(&structure, &desk.suite, &design, table, 0.0).monitor
+    }
+
+    /// Faults of a loop.
+    fn faults(desk: &LoopScene, seed: u64) -> usize {
+        desk.task(0, seed, &Interrupt::default()).run(&mut Extremes::default(), &mut ()).unwrap().faults.len()
+    }
+
+    #[test]
+    fn noise_behind_a_slow_low_pass_is_not_stuck() {
+        for sensors in [
+            "suite = 'icm-42688-p', gyroscope = { bandwidth_hz = 42 }",
+            "suite = 'icm-42688-p', ground_accelerometer = { bandwidth_hz = 20 }",
+        ] {
+            let desk = desk(sensors);
+            for seed in 1..=4 {
+                assert_eq!(faults(&desk, seed), 0, "{sensors}, seed {seed}");
+            }
+        }
+        // However slow, the monitor's limits are ones that it may have.
+        let slowest = "block_accelerometer = { bandwidth_hz = 0.1, noise_density_ug_rthz = 10000, resolution_mg = 0.2 }";
+        assert_eq!(monitor(slowest).block_accelerometer.stuck_time, LONGEST_WAIT);
+        assert!(desk(slowest).task(0, 1, &Interrupt::default()).driver().is_ok());
+    }
+
+    #[test]
+    fn readings_of_parts_as_they_are_sold_are_independent_at_the_usual_tick() {
+        for part in [GYROSCOPES, ACCELEROMETERS].concat().iter().map(|preset| preset.part) {
+            let between = between_readings(&part.sampling, 5e-4);
+            assert_eq!(independent(&part, between).to_bits(), between.to_bits());
+        }
+    }
+
+    #[test]
+    fn an_encoder_is_late_as_far_as_it_is_read_late() {
+        let close = |value: f32, expected: f64| assert!((f64::from(value) / expected - 1.0).abs() < 1e-6, "{value} {expected}");
+        let ideal = monitor("encoder = { resolution_m = 1e-6 }");
+        close(ideal.encoder.stale_time, 0.003);
+        close(ideal.sensor_delay, 0.002);
+        // Three readings missed and the latency; half a period and the latency, twice, after two ticks of the gyroscope.
+        for synchronous in [false, true] {
+            let slow = monitor(&format!("encoder = {{ rate_hz = 250, synchronous = {synchronous}, latency_s = 0.002 }}"));
+            close(slow.encoder.stale_time, 0.014);
+            close(slow.sensor_delay, 0.001 + 0.004 + 0.004);
+        }
+    }
+
+    #[test]
+    fn a_slow_or_late_encoder_is_no_fault() {
+        for encoder in ["rate_hz = 250", "rate_hz = 1000, latency_s = 0.01"] {
+            assert_eq!(faults(&desk(&format!("suite = 'adis16470', encoder = {{ {encoder} }}")), 1), 0, "{encoder}");
+        }
     }
 }
