@@ -79,7 +79,8 @@ class Gyroscope(Table):
     jitter_s
         Jitter of the instant at which it is read; up to a tenth of the period; from 0 to 0.1.
     latency_s
-        Time until a reading is known; up to 32 periods; from 0 to 0.1.
+        Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously;
+        from 0 to 0.1.
 
     Raises
     ------
@@ -141,7 +142,8 @@ class Accelerometer(Table):
     jitter_s
         Jitter of the instant at which it is read; up to a tenth of the period; from 0 to 0.1.
     latency_s
-        Time until a reading is known; up to 32 periods; from 0 to 0.1.
+        Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously;
+        from 0 to 0.1.
 
     Raises
     ------
@@ -191,7 +193,8 @@ class Encoder(Table):
     jitter_s
         Jitter of the instant at which it is read; up to a tenth of the period; from 0 to 0.1.
     latency_s
-        Time until a reading is known; up to 32 periods; from 0 to 0.1.
+        Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously;
+        from 0 to 0.1.
 
     Raises
     ------
@@ -269,7 +272,7 @@ class Controller(Table):
         Width of the hysteresis of signs, in standard deviations of the estimate; from 0 to 10; 1.0 by
         default.
     dwell_s
-        Least time between two commands; from 0 to 1; 0.0 by default.
+        Least time between two commands; up to 65535 ticks; from 0 to 1; 0.0 by default.
     engaged_at_rest
         Whether both clutches are engaged while the block stands, so that a flywheel resists from the start of
         uplift; true by default.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use super::sensors::SensorsTable;
-use crate::sensor::Suite;
+use crate::sensor::{MOST_UNDER_WAY, Sampling, Suite};
 
 /// Estimators.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -171,7 +171,7 @@ pub struct ControllerTable {
     /// Width of the hysteresis of signs, in standard deviations of the estimate.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub hysteresis: f64,
-    /// Least time between two commands.
+    /// Least time between two commands; up to 65535 ticks.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub dwell_s: f64,
     /// Whether both clutches are engaged while the block stands, so that a flywheel resists from the start of uplift.
@@ -225,6 +225,9 @@ impl Default for ControllerTable {
     }
 }
 
+/// Ticks that a controller counts of its least time between two commands.
+const MOST_DWELL: f64 = u16::MAX as f64;
+
 impl ControllerTable {
     /// The sensors; `origin` is the scene's name in messages.
     ///
@@ -242,6 +245,72 @@ impl ControllerTable {
         if self.sign_table.is_some() && self.law != LawName::SignTable {
             return Err(key("controller.sign_table").conflict("only the law \"sign-table\" has a table"));
         }
-        self.sensors.resolve(&|name: &str| key(&format!("controller.{name}")))
+        let ticks = (self.dwell_s * self.rate_hz).round();
+        if ticks > MOST_DWELL {
+            let range = format!("at most {MOST_DWELL} ticks, {} s", MOST_DWELL / self.rate_hz);
+            return Err(key("controller.dwell_s").range(self.dwell_s, &range));
+        }
+        let suite = self.sensors.resolve(&|name: &str| key(&format!("controller.{name}")))?;
+        self.check_continuous(&suite, key)?;
+        Ok(suite)
+    }
+
+    /// Refuses a continuous sensor, which has a reading at each instant that it sees, with more of them under way than it holds.
+    fn check_continuous(&self, suite: &Suite, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        let Suite { gyroscope, block_accelerometer, ground_accelerometer, encoder } = suite;
+        let sensors: [(&str, &Sampling); 4] = [
+            ("gyroscope", &gyroscope.sampling),
+            ("block_accelerometer", &block_accelerometer.sampling),
+            ("ground_accelerometer", &ground_accelerometer.sampling),
+            ("encoder", &encoder.sampling),
+        ];
+        let (most, seen) = (MOST_UNDER_WAY as f64, self.rate_hz * f64::from(self.substeps));
+        for (name, sampling) in sensors {
+            if sampling.rate == 0.0 && sampling.latency * seen > most * (1.0 + 1e-12) {
+                let range =
+                    format!("at most {most} substeps of a tick, {} s, of a sensor that is read continuously", most / seen);
+                return Err(key(&format!("controller.sensors.{name}.latency_s")).range(sampling.latency, &range));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> Option<String> {
+        let table: ControllerTable = toml::from_str(text).unwrap();
+        table.suite("scene").err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_dwell_of_more_ticks_than_a_controller_counts_is_refused() {
+        for fits in ["rate_hz = 65535.0\ndwell_s = 1.0", "rate_hz = 100000.0\ndwell_s = 0.65", "dwell_s = 1.0"] {
+            assert_eq!(refused(fits), None);
+        }
+        assert_eq!(
+            refused("rate_hz = 1e5\ndwell_s = 0.8").unwrap(),
+            "scene: controller.dwell_s is 0.8, but must be at most 65535 ticks, 0.65535 s"
+        );
+    }
+
+    /// 32 readings of a sensor that sees the motion 8,000 times a second cover 4 ms.
+    #[test]
+    fn a_continuous_sensor_holds_no_more_readings_under_way_than_a_sampled_one() {
+        for sensor in ["gyroscope", "block_accelerometer", "ground_accelerometer", "encoder"] {
+            let late = |latency: &str| format!("[sensors]\n{sensor} = {{ {latency} }}");
+            assert_eq!(refused(&late("latency_s = 0.004")), None);
+            assert_eq!(refused(&late("latency_s = 0.005, rate_hz = 2000")), None);
+            assert_eq!(refused(&format!("substeps = 1\n{}", late("latency_s = 0.016"))), None);
+            assert_eq!(
+                refused(&late("latency_s = 0.005")).unwrap(),
+                format!(
+                    "scene: controller.sensors.{sensor}.latency_s is 0.005, but must be at most 32 substeps of a tick, 0.004 s, of a sensor \
+                     that is read continuously"
+                )
+            );
+        }
     }
 }

@@ -58,7 +58,7 @@ pub struct GyroscopeTable {
     /// Jitter of the instant at which it is read; up to a tenth of the period.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
-    /// Time until a reading is known; up to 32 periods.
+    /// Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
@@ -109,7 +109,7 @@ pub struct AccelerometerTable {
     /// Jitter of the instant at which it is read; up to a tenth of the period.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
-    /// Time until a reading is known; up to 32 periods.
+    /// Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously.
     #[schemars(range(min = 0.0, max = 0.1))]
     pub latency_s: Option<f64>,
 }
