@@ -75,7 +75,8 @@ impl<L: Law> Driver for Shared<L> {
         }
         let (rotation, velocity) = (plant.motion.rotation as f32, plant.motion.velocity as f32);
         let push = model.push(side, rotation, velocity, ground);
-        let estimate = Estimate { rotation, velocity, side, push, ground, ..Estimate::default() };
+        let ground_rate = plant.ground_rate as f32;
+        let estimate = Estimate { rotation, velocity, side, push, ground, ground_rate, ..Estimate::default() };
         self.controller.law.wish(&Situation {
             model,
             estimate,

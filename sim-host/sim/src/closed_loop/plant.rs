@@ -41,6 +41,8 @@ pub struct Whereabouts {
     pub push: f64,
     /// Ground acceleration in g, horizontal and vertical.
     pub ground: [f64; 2],
+    /// Growth of the horizontal one from now on, 1/s; 0 at rest.
+    pub ground_rate: f64,
     /// Whether each clutch is engaged.
     pub engaged: [bool; 2],
     /// Speeds of the flywheels over R, 1/s.
@@ -171,6 +173,17 @@ impl<'a> Plant<'a> {
         [horizontal, vertical]
     }
 
+    /// [`Whereabouts::ground_rate`] now.
+    fn ground_rate(&self) -> f64 {
+        if self.state.motion.phase != Phase::Rocking {
+            return 0.0;
+        }
+        // At the end of a segment the next one is in force, which is entered only to follow it.
+        let ahead = self.surroundings.ground.horizontal.segments().get(self.index..).unwrap_or_default();
+        let now = ahead.iter().find(|segment| segment.start + segment.duration > self.time);
+        now.map_or(0.0, |segment| segment.shape.slope(self.time - segment.start))
+    }
+
     fn segment(&self) -> Option<&'a Segment> {
         self.surroundings.ground.horizontal.segments().get(self.index)
     }
@@ -299,6 +312,7 @@ impl<'a> Plant<'a> {
             motion: self.state.motion,
             push: self.push(),
             ground: self.ground(),
+            ground_rate: self.ground_rate(),
             engaged: [wheels[0].coupling.is_engaged(), wheels[1].coupling.is_engaged()],
             spins: self.machine.spins_now(&self.state, &self.posture.configuration),
             missed: self.state.device.missed,

@@ -1,7 +1,12 @@
-//! What sensors see between ticks.
+//! What sensors see between ticks, and what the law on the true motion sees.
+
+use sprag_shared::control::law::{Law, Situation, Wish};
+use sprag_shared::math;
+use sprag_shared::motion::state::Phase;
 
 use super::LoopScene;
 use super::plant::Extremes;
+use super::run::Tick;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
 use crate::sensor::Truth;
@@ -156,4 +161,35 @@ fn springs_too_stiff_for_a_tick_stay_stable() {
         let [coarse, fine] = [500, 8000].map(|rate_hz| peak_of_engaged(rate_hz, &device, "amplitude_ratio = 1.5"));
         assert!((coarse / fine - 1.0).abs() < 5e-3, "{stiffness}: {coarse} {fine}");
     }
+}
+
+/// Largest growth of [`SINE`], g/s.
+const FASTEST: f64 = 0.5 * std::f64::consts::TAU * 1.3;
+
+/// Engages where the ground's acceleration grows by more than half of [`FASTEST`].
+struct Growing;
+
+impl Law for Growing {
+    fn wish(&self, at: &Situation<'_>) -> Wish {
+        if f64::from(at.estimate.ground_rate) > 0.5 * FASTEST { Wish::Resist } else { Wish::Release }
+    }
+}
+
+/// The law on the true motion looks ahead along the slope that the ground truly has: of sin ωt it is above half of the largest for cos ωt > 1/2.
+#[test]
+fn the_law_on_the_true_motion_knows_how_the_ground_goes_on() {
+    let desk = scene(RIGID, SINE);
+    let interrupt = Interrupt::default();
+    let task = desk.task(0, 1, &interrupt);
+    let (.., looped) = task.answered_by::<Vec<Tick>>(|task| task.driver_by(Growing)).unwrap();
+    let mut seen = [0, 0];
+    for tick in looped.ticks.iter().filter(|tick| tick.plant.motion.phase == Phase::Rocking) {
+        let phase = 1.3 * tick.plant.time;
+        let cosine = if phase < 1.0 { math::sin_cos(std::f64::consts::TAU * phase).1 } else { 0.0 };
+        if (cosine - 0.5).abs() > 0.01 && (phase - 1.0).abs() > 0.002 {
+            assert_eq!(tick.ideal, cosine > 0.5, "{} s", tick.plant.time);
+            seen[usize::from(tick.ideal)] += 1;
+        }
+    }
+    assert!(seen[0] > 1000 && seen[1] > 100, "{seen:?}");
 }
