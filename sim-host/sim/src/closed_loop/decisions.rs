@@ -12,6 +12,8 @@ pub struct Moment {
     pub time: f64,
     /// The block rocks.
     pub rocks: bool,
+    /// |θ| is α or more: a block that overturns has begun to fall.
+    pub beyond: bool,
     /// θ̇, rad/s.
     pub velocity: f64,
     /// The law, on the true motion, would engage.
@@ -25,7 +27,7 @@ impl From<&Tick> for Moment {
         let plant = &tick.plant;
         let [first, second] = plant.engaged;
         let (rocks, velocity) = (plant.motion.phase == Phase::Rocking, plant.motion.velocity);
-        Moment { time: plant.time, rocks, velocity, ideal: tick.ideal, engaged: first || second }
+        Moment { time: plant.time, rocks, beyond: tick.beyond, velocity, ideal: tick.ideal, engaged: first || second }
     }
 }
 
@@ -37,13 +39,24 @@ pub struct Decisions {
     last: Option<Moment>,
     ideal: Vec<(f64, bool)>,
     moved: Vec<(f64, bool)>,
+    /// What there was when |θ| last passed α.
+    fall: Option<Counted>,
+}
+
+/// How far a collection has come.
+#[derive(Clone, Copy, Debug)]
+struct Counted {
+    wrong: f64,
+    whole: f64,
+    ideal: usize,
+    moved: usize,
 }
 
 /// What they come to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct DecisionReport {
     /// Share of the rocking time, weighted by |θ̇|, in which the clutches are not as the same law on the true motion has them. The clutches
-    /// and not the command: a law that predicts gives commands early on purpose.
+    /// and not the command: a law that predicts gives commands early on purpose. A fall counts in nothing here.
     pub wrong_share: f64,
     /// From the instant at which the law on the true motion changes to the clutch's movement, s: median, …
     pub delay_median_s: Option<f64>,
@@ -68,13 +81,23 @@ impl TickObserver for Decisions {
     fn looks(&self) -> Looks {
         Looks::Rocking
     }
+
+    fn overturned(&mut self) {
+        let Some(Counted { wrong, whole, ideal, moved }) = self.fall.take() else { return };
+        (self.wrong, self.whole) = (wrong, whole);
+        self.ideal.truncate(ideal);
+        self.moved.truncate(moved);
+    }
 }
 
 impl Decisions {
-    /// Those of all `ticks`.
-    pub fn of(ticks: &[Tick]) -> Decisions {
+    /// Those of all `ticks` of a loop, without the fall of a block that has `overturned`.
+    pub fn of(ticks: &[Tick], overturned: bool) -> Decisions {
         let mut decisions = Decisions::default();
         ticks.iter().for_each(|tick| decisions.tick(tick));
+        if overturned {
+            decisions.overturned();
+        }
         decisions
     }
 
@@ -88,6 +111,12 @@ impl Decisions {
                     self.wrong += weight;
                 }
             }
+        }
+        if !now.beyond {
+            self.fall = None;
+        } else if self.fall.is_none() {
+            let (ideal, moved) = (self.ideal.len(), self.moved.len());
+            self.fall = Some(Counted { wrong: self.wrong, whole: self.whole, ideal, moved });
         }
         let before = self.last.unwrap_or(Moment { ideal: false, engaged: false, ..now });
         // A standing block has no law to follow.
@@ -140,7 +169,14 @@ mod tests {
         for k in 0..20_000 {
             let time = f64::from(k) * 1e-4;
             let on = |t: f64| t >= 0.0 && (t / 0.2) as u32 % 2 == 1;
-            decisions.add(Moment { time, rocks: true, velocity: -2.0, ideal: on(time), engaged: on(time - 0.003) });
+            decisions.add(Moment {
+                time,
+                rocks: true,
+                beyond: false,
+                velocity: -2.0,
+                ideal: on(time),
+                engaged: on(time - 0.003),
+            });
         }
         let report = decisions.report();
         assert!((report.delay_median_s.unwrap() - 0.003).abs() < 2e-4, "{report:?}");
@@ -153,7 +189,7 @@ mod tests {
         let mut decisions = Decisions::default();
         for k in 0..100_u32 {
             let time = f64::from(k) * 1e-2;
-            decisions.add(Moment { time, rocks: true, velocity: 1.0, ideal: k > 50, engaged: k % 2 == 1 });
+            decisions.add(Moment { time, rocks: true, beyond: false, velocity: 1.0, ideal: k > 50, engaged: k % 2 == 1 });
         }
         let report = decisions.report();
         assert_eq!(report.ideal_switches, 1);
@@ -165,10 +201,35 @@ mod tests {
     fn a_standing_block_has_no_wrong_decisions() {
         let mut decisions = Decisions::default();
         for k in 0..10 {
-            let at = Moment { time: f64::from(k), rocks: false, velocity: 0.0, ideal: k % 2 == 0, engaged: true };
-            decisions.add(at);
+            let (time, ideal) = (f64::from(k), k % 2 == 0);
+            decisions.add(Moment { time, rocks: false, beyond: false, velocity: 0.0, ideal, engaged: true });
         }
         assert_eq!(decisions.report().wrong_share, 0.0);
         assert_eq!(decisions.report().ideal_switches, 0);
+    }
+
+    /// Right up to the fall and wrong in it, faster and faster. One that comes back has fallen from nowhere.
+    #[test]
+    fn nobody_decides_on_a_block_that_falls() {
+        let moment = |k: u32| {
+            let (time, falls) = (f64::from(k) * 1e-2, k > 100);
+            let velocity = if falls { 10.0 } else { 1.0 };
+            Moment { time, rocks: true, beyond: falls, velocity, ideal: k % 10 < 5, engaged: (k % 10 < 5) != falls }
+        };
+        let mut decisions = Decisions::default();
+        (0..=100).for_each(|k| decisions.add(moment(k)));
+        let before = decisions.report();
+        assert_eq!(before.wrong_share, 0.0);
+        (101..200).for_each(|k| decisions.add(moment(k)));
+        let mut fallen = decisions.clone();
+        fallen.overturned();
+        assert_eq!(fallen.report(), before);
+        assert_eq!(fallen.delays().len(), before.ideal_switches as usize);
+        assert!(decisions.report().wrong_share > 0.8);
+        let back = Moment { time: 2.0, beyond: false, ..moment(100) };
+        decisions.add(back);
+        let returned = decisions.report();
+        decisions.overturned();
+        assert_eq!(decisions.report(), returned);
     }
 }

@@ -4,8 +4,10 @@ use std::fmt;
 use std::io::Write;
 
 use serde::Serialize;
+use sprag_shared::control::supervisor::Phase;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::observers::peaks::Peaks;
+use sprag_shared::structure::error::Number;
 
 use super::answered::Looped;
 use super::decisions::{DecisionReport, Decisions};
@@ -56,6 +58,9 @@ pub struct LoopSummary {
     pub missed_engagements: u32,
     /// State of the controller at the end, or when the fall began.
     pub controller_state: String,
+    /// Its state when the motion began, where self-test or calibration was not done by then.
+    #[serde(skip)]
+    pub unready: Option<String>,
     /// Faults, but for those of a fall.
     pub faults: Vec<FaultEntry>,
     /// How accurate it is, where that was asked for.
@@ -109,14 +114,33 @@ impl LoopReport {
             peak_change: peak.zip(ideal.peak_rotation).filter(|(_, ideal)| *ideal > 0.0).map(|(peak, ideal)| peak / ideal - 1.0),
             impacts: ending.motion.impacts,
             ticks: ending.ticks,
-            decisions: Decisions::of(&ticks).report(),
+            decisions: Decisions::of(&ticks, outcome.overturned()).report(),
             missed_engagements: ending.missed,
-            controller_state: format!("{:?}", ending.phase).to_lowercase(),
+            controller_state: state(ending.phase),
+            unready: (!ending.began_ready()).then(|| state(ending.began)),
             faults: faults.collect(),
             error: None,
             monte_carlo: None,
         };
         LoopReport { summary, ticks, ideal }
+    }
+}
+
+/// A state of the controller, as summaries have it.
+fn state(phase: Phase) -> String {
+    format!("{phase:?}").to_lowercase()
+}
+
+impl LoopSummary {
+    /// What looks like a mistake in the scene from `origin`, with a stillness of `prelude` (s), as [`crate::scene::Scene::warnings`] have it.
+    pub fn warning(&self, origin: &str, prelude: f64) -> Option<String> {
+        self.unready.as_ref().map(|state| {
+            let (device, prelude) = (&self.device, Number(prelude));
+            format!(
+                "{origin}: controller.prelude_s is {prelude}: the controller of {device} was in {state}, not armed, when the motion \
+                 began"
+            )
+        })
     }
 }
 
@@ -149,6 +173,9 @@ impl fmt::Display for LoopSummary {
             "  controller   {} {when}; {} ticks after the stillness before the motion",
             self.controller_state, self.ticks
         )?;
+        if let Some(state) = &self.unready {
+            writeln!(out, "  warning      in {state}, not armed, when the motion began: controller.prelude_s is too short")?;
+        }
         for fault in &self.faults {
             writeln!(out, "  fault {}     at {:.4} s: {}", fault.code, fault.time_s, fault.fault)?;
         }
@@ -213,4 +240,41 @@ pub fn write_history(reports: &[LoopReport], mut out: impl Write) -> Result<(), 
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::LoopScene;
+    use super::*;
+    use crate::interrupt::Interrupt;
+    use crate::scene::Scene;
+
+    /// Of a loop with so much stillness before the scene and before its pulse, s.
+    fn summary(prelude: f64, start: f64) -> LoopSummary {
+        let text = format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 12.0 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid' }}]
+            ground = [{{ motion = 'sine', amplitude_g = 0.4, frequency_hz = 1.3, start_s = {start} }}]
+            run = {{ free_time_s = 0.0 }}
+            controller = {{ rate_hz = 500.0, prelude_s = {prelude} }}"
+        );
+        let desk = LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap();
+        let interrupt = Interrupt::default();
+        let (task, error, looped) = desk.task(0, 1, &interrupt).answered().unwrap();
+        LoopReport::of_answer(&task, error, looped).unwrap().summary
+    }
+
+    /// Self-test and calibration take 1.3 s.
+    #[test]
+    fn a_controller_that_is_not_armed_when_the_motion_begins_is_warned_of() {
+        for (prelude, start, armed) in
+            [(2.0, 0.0, true), (0.5, 0.0, false), (0.0, 0.0, false), (0.5, 1.5, true), (0.5, 0.2, false)]
+        {
+            let summary = summary(prelude, start);
+            let warning = summary.warning("scene", prelude);
+            assert_eq!(warning.is_none(), armed, "{prelude} s, {start} s: {warning:?}");
+            assert_eq!(summary.to_string().contains("controller.prelude_s is too short"), !armed);
+            assert!(warning.is_none_or(|line| line.starts_with(&format!("scene: controller.prelude_s is {prelude}: "))));
+        }
+    }
 }

@@ -42,6 +42,8 @@ pub struct Tick {
     pub decision: Decision,
     /// What the same law would want of the true motion; false where the observer [does not look](TickObserver::looks).
     pub ideal: bool,
+    /// |θ| is α or more: a block that overturns has begun to fall.
+    pub beyond: bool,
 }
 
 /// When somebody looks at [`Tick::ideal`]; nobody else pays for it.
@@ -64,6 +66,9 @@ pub trait TickObserver {
     fn looks(&self) -> Looks {
         Looks::Never
     }
+
+    /// The block has overturned, after the last tick.
+    fn overturned(&mut self) {}
 }
 
 /// Nobody.
@@ -109,6 +114,15 @@ pub struct Ending {
     pub faults: Vec<(f64, Fault)>,
     /// Engagements that the clutches missed.
     pub missed: u32,
+    /// The controller's state when the ground or the block began to move.
+    pub began: ControllerPhase,
+}
+
+impl Ending {
+    /// Whether self-test and calibration were done when the ground or the block began to move.
+    pub fn began_ready(&self) -> bool {
+        !matches!(self.began, ControllerPhase::Boot | ControllerPhase::SelfTest | ControllerPhase::Calibrate)
+    }
 }
 
 /// One closed loop.
@@ -144,7 +158,8 @@ impl ClosedLoop<'_> {
         let clock = self.clock;
         let still = Truth::STILL;
         let mut sensors = Sensors::new(self.suite, self.seed, &still);
-        let mut command = self.prelude(&mut sensors, driver);
+        let (mut command, mut began) = self.prelude(&mut sensors, driver);
+        let mut moves = false;
         plant.preset(command);
         let mut currents = Currents::settled(command);
         let fine = clock.period / f64::from(clock.substeps);
@@ -175,9 +190,14 @@ impl ClosedLoop<'_> {
             let mut circumstances = Circumstances::default();
             self.disturbance.disturb(time, &mut sample, &mut circumstances);
             let decision = driver.tick(&sample, circumstances);
+            moves |= whereabouts.motion.phase == Phase::Rocking || whereabouts.ground != [0.0; 2];
+            if !moves {
+                began = decision.phase;
+            }
             let asked = looks == Looks::Always || whereabouts.motion.phase == Phase::Rocking;
             let ideal = looks != Looks::Never && driver.ideal(&whereabouts, asked) != Wish::Release;
-            if whereabouts.motion.rotation.abs() < self.slenderness {
+            let beyond = whereabouts.motion.rotation.abs() >= self.slenderness;
+            if !beyond {
                 fall = None;
             } else if fall.is_none() {
                 fall = Some((faults.len(), phase));
@@ -190,7 +210,7 @@ impl ClosedLoop<'_> {
                 faults.extend(decision.fault.map(|fault| (time, fault)));
             }
             phase = decision.phase;
-            observer.tick(&Tick { plant: whereabouts, sample, decision, ideal });
+            observer.tick(&Tick { plant: whereabouts, sample, decision, ideal, beyond });
             command = self.disturbance.clutches(time, decision.command, command);
             plant.order(command, watcher);
             currents.step(self.feedback, command);
@@ -203,27 +223,31 @@ impl ClosedLoop<'_> {
         }
         plant.end(watcher);
         let end = plant.whereabouts();
+        if end.motion.phase == Phase::Overturned {
+            observer.overturned();
+        }
         if let (Phase::Overturned, Some((entered, state))) = (end.motion.phase, fall) {
             faults.truncate(entered);
             phase = state;
         }
-        Ok(Ending { motion: end.motion, ticks: tick, engagements, phase, faults, missed: end.missed })
+        Ok(Ending { motion: end.motion, ticks: tick, engagements, phase, faults, missed: end.missed, began })
     }
 
-    /// Stillness: the controller boots, tests its clutches and calibrates its sensors. Returns the last command.
-    fn prelude(&self, sensors: &mut Sensors, driver: &mut dyn Driver) -> [bool; 2] {
+    /// Stillness: the controller boots, tests its clutches and calibrates its sensors. Returns the last command and the state.
+    fn prelude(&self, sensors: &mut Sensors, driver: &mut dyn Driver) -> ([bool; 2], ControllerPhase) {
         let clock = &self.clock;
         let ticks = (clock.prelude / clock.period).round() as u64;
         let lag = (clock.actuation / clock.period).ceil() as usize;
         let mut pending = std::collections::VecDeque::from(vec![[false; 2]; lag + 1]);
-        let mut command = [false; 2];
+        let (mut command, mut phase) = ([false; 2], ControllerPhase::Boot);
         for tick in 0..ticks {
             sensors.advance(tick as f64 * clock.period, &Truth::STILL);
             let mut sample = sensors.sample();
             sample.engaged = pending.pop_front().unwrap_or_default();
-            command = driver.tick(&sample, Circumstances::default()).command;
+            let decision = driver.tick(&sample, Circumstances::default());
+            (command, phase) = (decision.command, decision.phase);
             pending.push_back(command);
         }
-        command
+        (command, phase)
     }
 }
