@@ -12,12 +12,9 @@ use sprag_report::heading::of_scene;
 use sprag_report::output::{ResultFolder, Subject};
 use sprag_report::plot::{FigureTitle, LoopTrace, loop_figure};
 use sprag_report::progress::Progress;
-use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::accuracy::budget;
 use sprag_sim::closed_loop::decisions::Decisions;
-use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, LoopSummary, write_history};
-use sprag_sim::closed_loop::run::Ending;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::record::warning_lines;
@@ -87,7 +84,10 @@ impl Run for LoopArguments {
             }
             _ => self.accuracy.run(context, run)?,
         };
-        let warnings = context.warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)));
+        let of_loop = |report: &LoopReport| report.summary.warning(&desk.scene.origin, desk.controller.prelude_s);
+        let of_loops = reports.iter().filter_map(of_loop);
+        let of_scene = desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records));
+        let warnings = context.warned(of_scene.chain(of_loops));
         let mut report = Report::new("loop", &folder, &self.output)?;
         if let Some(count) = self.monte_carlo {
             let [switches, chatter, faults] = ["switches", "chatter", "faults"].map(Column::count);
@@ -161,15 +161,15 @@ pub(super) fn heading(scene: &Scene, report: &LoopReport) -> FigureTitle {
 fn specimens(desk: &LoopScene, index: usize, numbers: Range<u64>, interrupt: &Interrupt) -> anyhow::Result<Vec<Specimen<4>>> {
     let one = |number| {
         let seed = desk.controller.sensors.seed().wrapping_add(number);
-        let (mut extremes, mut decisions) = (Extremes::default(), Decisions::default());
-        let ending = desk.task(index, seed, interrupt).run(&mut extremes, &mut decisions);
-        let Ending { motion, faults, .. } = ending.map_err(|failure| failed(desk, index, failure))?;
-        let decisions = decisions.report();
+        // As accurately as the scene asks, as the loop itself.
+        let answered = desk.task(index, seed, interrupt).answered::<Decisions>();
+        let (.., looped) = answered.map_err(|failure| failed(desk, index, failure))?;
+        let (decisions, faults) = (looped.ticks.report(), looped.ending.faults.len());
         Ok(Specimen {
             seed,
-            outcome: Outcome::of(&motion, &extremes.peaks),
-            peak: Some(extremes.peaks.rotation / desk.scene.block.slenderness()),
-            more: [decisions.wrong_share.into(), decisions.switches.into(), decisions.chatter.into(), faults.len().into()],
+            outcome: looped.outcome(),
+            peak: Some(looped.extremes.peaks.rotation / desk.scene.block.slenderness()),
+            more: [decisions.wrong_share.into(), decisions.switches.into(), decisions.chatter.into(), faults.into()],
         })
     };
     numbers.map(one).collect()

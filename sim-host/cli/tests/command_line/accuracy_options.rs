@@ -200,3 +200,28 @@ fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_n
     let line = said(&late);
     assert!(late.status.success() && line.contains("--time-budget 0.001 does not suffice for --accuracy fast"), "{line}");
 }
+
+/// The first specimen is the scene's own: it comes to what the loop itself comes to.
+#[test]
+fn specimens_of_a_loop_are_as_accurate_as_the_loop() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let output = sprag(&[
+        "loop",
+        &scene("controller"),
+        "--set",
+        "run.free_time_s=0",
+        "--set",
+        "controller.rate_hz=500",
+        "--accuracy",
+        "tight",
+        "--monte-carlo",
+        "1",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert!(output.status.success(), "{}", said(&output));
+    let run = &summary(&out)["runs"][0];
+    let [own, specimen] = [&run["peak_rotation"], &run["monte_carlo"]["peak_rotation_median"]].map(|peak| peak.as_f64().unwrap());
+    assert!((own - specimen).abs() <= 1e-12 * own, "{own} {specimen}");
+}
