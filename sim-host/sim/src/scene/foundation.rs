@@ -51,6 +51,10 @@ pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], key: &KeyOf<'_>) 
             );
             return refuse(name, &what);
         }
+        if !device.added_mass.is_none() {
+            let what = format!("a block on a foundation carries no mass of its device (device.{index}.weight)");
+            return refuse(name, &what);
+        }
     }
     if file.checks.is_some() {
         return refuse("checks", "the checks are those of a block on rigid ground, and block.foundation gives");
@@ -70,4 +74,29 @@ pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], key: &KeyOf<'_>) 
         return refuse("accuracy.method", &format!("{in_steps}: with a step give runge-kutta-4"));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::Scene;
+
+    #[test]
+    fn the_weight_of_a_device_on_a_foundation_is_refused_as_what_it_is() {
+        let scene = |on: &str| {
+            let text = format!(
+                "device = [{{ kind = 'inerter', mass_ratio = 0.5, weight = {{ flywheels_ratio = 0.1, flywheels_on = '{on}' }} }}]
+                ground = [{{ motion = 'sine', amplitude_g = 0.4, frequency_hz = 1.3 }}]
+                [block]
+                size_m = 2.0
+                slenderness_deg = 12.0
+                foundation = {{ vertical_frequency_hz = 10.0, damping_ratio = 0.3 }}"
+            );
+            Scene::parse_with(&text, "scene", &[]).map(drop).map_err(|error| error.to_string())
+        };
+        assert_eq!(scene("support"), Ok(()));
+        assert_eq!(
+            scene("block").unwrap_err(),
+            "scene: block.foundation: a block on a foundation carries no mass of its device (device.0.weight)"
+        );
+    }
 }
