@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,16 +79,42 @@ class Axis:
         return {"key": self.key, "from": self.start, "to": self.stop, "cells": self.cells, "scale": scale}
 
 
-class _Records:
-    """Records in memory under names that differ."""
+def _place(name: str) -> tuple[str, ...]:
+    """What is equal for names that the native module takes for one path; for some others too, whose records then have other names."""
+    return tuple(part for part in name.replace("\\", "/").split("/") if part not in ("", "."))
 
-    def __init__(self, records: Iterable[tuple[str, Record]] = ()) -> None:
+
+def _files(value: Any, key: str = "") -> Iterator[tuple[str, str]]:
+    """Keys and values of every `file` in a value of a scene: a file, or a record in memory by its name."""
+    if isinstance(value, (str, os.PathLike)):
+        if key.rpartition(".")[2] == "file":
+            yield key, os.fsdecode(value)
+        return
+    value = plain(value)
+    inner: Iterable[tuple[Any, Any]] = ()
+    if isinstance(value, dict):
+        inner = value.items()
+    elif isinstance(value, (list, tuple)):
+        inner = enumerate(value)
+    for name, item in inner:
+        yield from _files(item, f"{key}.{name}" if key else str(name))
+
+
+class _Records:
+    """Records in memory under names that differ as paths do, from each other and from `files`: else one would take the place of another."""
+
+    def __init__(self, records: Iterable[tuple[str, Record]] = (), files: Iterable[str] = ()) -> None:
         self.named = dict(records)
+        self._taken = {_place(name) for name in [*self.named, *files]}
 
     def name(self, record: Record) -> str:
         number = 1
         name = record.name
-        while self.named.setdefault(name, record) != record:
+        while (held := self.named.get(name)) != record:
+            if held is None and _place(name) not in self._taken:
+                self.named[name] = record
+                self._taken.add(_place(name))
+                break
             number += 1
             name = f"{record.name} ({number})"
         return name
@@ -159,7 +185,6 @@ class Scene:
         output: Output | None = None,
         title: str = "",
     ) -> None:
-        records = _Records()
         given = {
             "title": title or None,
             "block": block,
@@ -172,6 +197,7 @@ class Scene:
             "controller": controller,
             "output": output,
         }
+        records = _Records(files=(file for _, file in _files(given)))
         keys = {name: records.keys(value) for name, value in given.items() if value is not None}
         self._hold(_core.Scene(keys, records=list(records.named.items())))
 
@@ -216,9 +242,18 @@ class Scene:
         InputError
             For a key that does not exist, with the one that was probably meant, or a value outside its range.
         """
-        records = _Records(self._native.records)
+        kept = [file for of, file in _files(self._table()) if of != key and not of.startswith(f"{key}.")]
+        files = [*kept, *(file for _, file in _files(value, key))]
+        # A record that the scene no longer names would be carried along for ever.
+        places = {_place(file) for file in files}
+        records = _Records(((name, record) for name, record in self._native.records if _place(name) in places), files)
         keys = records.keys(value)
         return Scene._of(self._native.set(key, keys, list(records.named.items())))
+
+    def _table(self) -> dict[str, Any]:
+        """The keys of the scene as they were written."""
+        table: dict[str, Any] = json.loads(self._native.written())
+        return table
 
     @property
     def devices(self) -> tuple[str, ...]:
@@ -266,7 +301,7 @@ class Scene:
         if not isinstance(other, Scene):
             return NotImplemented
         one, two = self._native, other._native
-        return one.written() == two.written() and one.folder == two.folder and one.records == two.records
+        return one.written() == two.written() and one.folder == two.folder and dict(one.records) == dict(two.records)
 
     def __hash__(self) -> int:
         return hash(self._native.written())

@@ -68,6 +68,60 @@ def test_records_in_memory_shake_as_their_files_do(scenes: Path) -> None:
     assert run.ground_m_s2.max() == pytest.approx(3.0, rel=1e-3)
 
 
+def shaking_m_s2(scene: sprag.Scene) -> float:
+    """Largest horizontal ground acceleration."""
+    (run,) = sprag.simulate(scene.set("output.interval_s", 1e-3))
+    return float(abs(run.ground_m_s2).max())
+
+
+def triangle(peak_m_s2: float, name: str = "array") -> sprag.Record:
+    return sprag.Record([0.0, peak_m_s2, 0.0], time_step_s=0.1, name=name)
+
+
+@pytest.mark.parametrize("name", ["rec.csv", "./rec.csv", "rec.csv/", "rec.csv (2)"])
+def test_a_record_in_memory_leaves_files_of_its_name_alone(tmp_path: Path, name: str) -> None:
+    (tmp_path / "rec.csv").write_text("time_s,acc_m_s2\n0,0\n0.1,5\n0.2,0\n")
+    text = "block={size_m=2,slenderness_deg=10}\ndevice=[{kind='none'}]\nground=[{motion='record',file='rec.csv'}]"
+    scene = sprag.Scene.parse(text, folder=tmp_path)
+    changed = scene.set("vertical", [triangle(0.1, name)])
+    assert shaking_m_s2(changed) == shaking_m_s2(scene) == pytest.approx(5.0, rel=1e-2)
+    assert shaking_m_s2(pickle.loads(pickle.dumps(changed))) == shaking_m_s2(scene)
+    # What the value itself names is a file too, and what it replaces is none any more.
+    file = {"motion": "record", "file": "rec.csv"}
+    assert shaking_m_s2(scene.set("vertical", [file, triangle(0.1, name)])) == shaking_m_s2(scene)
+    assert scene.set("ground", [triangle(1.0, name)]).to_dict()["ground"][0]["file"] == name
+
+
+def test_records_whose_names_are_one_path_are_two_records() -> None:
+    # Their sum would be 2 or 6 of one record twice.
+    for names in [("r/a", "r//a"), ("r/a", "r/./a"), ("r/a", "r/a/"), ("a", "a")]:
+        ground = [triangle(peak, name) for peak, name in zip((3.0, 1.0), names, strict=True)]
+        assert shaking_m_s2(sprag.Scene(block=PIER, ground=ground)) == pytest.approx(4.0, rel=1e-2)
+        assert shaking_m_s2(sprag.Scene(block=PIER, ground=ground[0]).set("ground.1", ground[1])) == pytest.approx(4.0, rel=1e-2)
+
+
+def test_a_scene_holds_the_records_that_it_names_and_no_others() -> None:
+    first, second = triangle(1.0, "first"), triangle(2.0, "second")
+    fresh = sprag.Scene(block=PIER, ground=[second])
+    for changed in [
+        sprag.Scene(block=PIER, ground=first).set("ground", [second]),
+        sprag.Scene(block=PIER, ground=first).set("ground.0", second),
+        sprag.Scene(block=PIER, ground=[second], vertical=first).set("vertical", None),
+    ]:
+        assert changed == fresh
+        assert len(pickle.dumps(changed)) == len(pickle.dumps(fresh))
+    # A record of the name of the one that it replaces has that name.
+    other = triangle(2.0, "first")
+    assert sprag.Scene(block=PIER, ground=first).set("ground", [other]) == sprag.Scene(block=PIER, ground=[other])
+    # Records are kept that other motions name, or the value by their names.
+    both = sprag.Scene(block=PIER, ground=[first], vertical=second)
+    assert shaking_m_s2(both.set("vertical", None).set("block.size_m", 3.0)) == pytest.approx(1.0, rel=1e-2)
+    assert both.set("ground", both.to_dict()["ground"]).set("ground.0.scale", 2.0).set("ground.0.file", "first") == both.set(
+        "ground", both.set("ground.0.scale", 2.0).to_dict()["ground"]
+    )
+    assert both == sprag.Scene(block=PIER, ground=[triangle(9.0)], vertical=second).set("ground", [first])
+
+
 @pytest.mark.parametrize(
     ("key", "value", "refused"),
     [
