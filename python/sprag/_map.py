@@ -27,7 +27,7 @@ class Map(Result):
     Attributes
     ----------
     devices
-        Names of the devices.
+        Names of what is mapped: the devices, then the clutched pairs by each law of `map.laws`, such as "clutched pair, resisting".
     x_key, y_key
         Keys of the axes; `y_key` is None for a cut along x.
     x, y
@@ -72,9 +72,12 @@ class Map(Result):
         if ax is None:
             ax = extra("matplotlib.pyplot").subplots()[1]
         assert ax is not None
-        y = self.y if self.y_key else np.zeros(1)
+        # A cut is a band: it has no height of its own.
+        y = _edges(self.y) if self.y_key else np.array([0.0, 1.0])
         colours = extra("matplotlib.colors").ListedColormap([outcome.colour for outcome in Outcome.of_studies()])
-        ax.pcolormesh(self.x, y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="nearest")
+        ax.pcolormesh(_edges(self.x), y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="flat")
+        if self.y_key is None:
+            ax.set_yticks([])
         for outcome in Outcome.of_studies():
             # A square that is nowhere: the legend's.
             ax.scatter([], [], marker="s", color=outcome.colour, edgecolors="0.6", label=outcome.words)
@@ -82,6 +85,12 @@ class Map(Result):
         ax.set_ylabel(self.y_key or "")
         ax.set_title(self.devices[device])
         return ax
+
+
+def _edges(values: Floats) -> Floats:
+    """Edges of cells about `values`: halfway between them, and as far beyond the ends."""
+    between = (values[1:] + values[:-1]) / 2
+    return np.concatenate([[2 * values[0] - between[0]], between, [2 * values[-1] - between[-1]]])
 
 
 def map(
@@ -92,7 +101,7 @@ def map(
     overturned_at: Literal["no-return", "slenderness"] | None = None,
     threads: int | None = None,
 ) -> Map:
-    """Outcomes and peaks of every device of a scene over one of its keys, or two.
+    """Outcomes and peaks of every device of a scene, and of its clutched pairs by every law of `map.laws`, over one of its keys, or two.
 
     Parameters
     ----------
@@ -114,11 +123,12 @@ def map(
         For a motion that cannot be followed, with the cell.
     """
     if x is not None:
-        kept = scene.to_dict().get("map", {}).get("overturned_at", "no-return")
-        scene = scene.set("map", {"x": x._keys(), "overturned_at": kept} | ({} if y is None else {"y": y._keys()}))
+        kept = {name: value for name, value in scene._table().get("map", {}).items() if name not in ("x", "y")}
+        scene = scene.set("map", kept | {"x": x._keys()} | ({} if y is None else {"y": y._keys()}))
     elif y is not None:
         scene = scene.set("map.y", y)
     if overturned_at is not None:
         scene = scene.set("map.overturned_at", overturned_at)
     native = _core.overturning_map(scene._native, threads=threads)
-    return Map(devices=scene.devices, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})
+    devices = tuple(native.pop("devices"))
+    return Map(devices=devices, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})

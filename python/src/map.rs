@@ -11,7 +11,8 @@ use crate::long_call::long_call;
 use crate::scene::Scene;
 use crate::threads;
 
-/// Outcomes and peaks of every device of a scene over the axes of its `[map]`: a dict of axes and arrays by device, y and x.
+/// Outcomes and peaks of every device of a scene, and of clutched pairs by every law of its `[map]`, over the axes there: a dict of the
+/// names of these maps, axes, and arrays by map, y and x.
 ///
 /// # Errors
 /// `InputError` and `RunError`.
@@ -37,6 +38,7 @@ pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<usiz
     let (grid, outcomes, rotations, accelerations) = made?;
     let shape = [grid.mapped().len(), grid.rows(), grid.columns()];
     let dict = PyDict::new(py);
+    dict.set_item("devices", grid.mapped().iter().map(|mapped| mapped.name.as_str()).collect::<Vec<_>>())?;
     dict.set_item("x_key", &grid.map.x.key)?;
     dict.set_item("x", (0..grid.columns()).map(|cell| grid.map.x.value(cell)).collect::<Vec<f64>>().into_pyarray(py))?;
     if let Some(y) = &grid.map.y {

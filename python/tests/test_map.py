@@ -39,6 +39,28 @@ def test_a_picture_shows_and_names_every_outcome(scenes: Path) -> None:
     assert np.allclose(shown, wanted[made.outcome[2]])
 
 
+def test_a_picture_of_a_cut_is_a_band_of_its_cells(scenes: Path) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    scene = sprag.Scene.read(scenes / "near_fault.toml")
+    cut = sprag.map(scene, x=sprag.Axis(key="ground.0.scale", start=0.5, stop=1.5, cells=3))
+    corners = cut.plot().collections[0].get_coordinates()
+    assert corners[0, :, 0].tolist() == pytest.approx([0.25, 0.75, 1.25, 1.75])
+    assert (corners[1, :, 1] - corners[0, :, 1] > 0.0).all()
+
+
+def test_a_map_of_laws_names_every_map(scenes: Path, command, tmp_path: Path) -> None:
+    axis = sprag.Axis(key="controller.latency_s", start=0.0, stop=0.05, cells=2)
+    scene = sprag.Scene.read(scenes / "laws.toml").set("map.y", None).set("map.x", axis)
+    made = sprag.map(scene)
+    assert made.devices == ("clutched pair", "clutched pair, resisting", "clutched pair, resisting-predicted")
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    rows = command("map", tmp_path / "scene.toml")("map")
+    assert [row["device"] for row in rows[::2]] == list(made.devices) == list(made.to_xarray().device.values)
+    assert made.plot(device=2).get_title() == made.devices[2]
+    # Axes of the call take the place of the scene's, and of nothing else.
+    assert sprag.map(scene.set("map.x.cells", 5), x=axis).devices == made.devices
+
+
 def test_a_cut_has_one_axis(scenes: Path) -> None:
     scene = sprag.Scene.read(scenes / "near_fault.toml")
     cut = sprag.map(scene, x=sprag.Axis(key="block.size_m", start=1.0, stop=4.0, cells=4, logarithmic=True))
