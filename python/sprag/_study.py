@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,10 +18,35 @@ from ._table import plain
 from .errors import InputError
 
 
+RecordLike = Record | str | os.PathLike[str]
+
+
+def _listed(records: RecordLike | Iterable[RecordLike]) -> tuple[Record | str, ...]:
+    """Records, and files by their paths; one alone is a list of one."""
+    items = [records] if isinstance(records, (Record, str, os.PathLike)) else records
+    return tuple(item if isinstance(item, Record) else os.fspath(item) for item in items)
+
+
 class Study:
     """Records, structures, devices and what is asked of them. It never changes; `set` and `use` make another one.
 
     Studies are TOML, as the command reads them; `sprag new study` writes one to start from.
+
+    Parameters
+    ----------
+    text
+        The study as TOML.
+    folder
+        Folder that the paths of the text are relative to.
+    origin
+        Its name in messages.
+    records
+        Records in the place of its own, as `use` takes them; a study without records of its own needs them.
+
+    Raises
+    ------
+    InputError
+        With the line and the key that is wrong.
     """
 
     __slots__ = ("_changes", "_folder", "_native", "_origin", "_records", "_text")
@@ -38,13 +63,13 @@ class Study:
         *,
         folder: str | os.PathLike[str] = "",
         origin: str = "study",
+        records: RecordLike | Iterable[RecordLike] | None = None,
         _changes: tuple[str, ...] = (),
-        _records: tuple[Record | str, ...] | None = None,
     ) -> None:
-        """The study of a TOML text; its paths are relative to `folder`."""
-        records = [record for record in _records or () if isinstance(record, Record)]
-        files = [str(record) for record in _records or () if not isinstance(record, Record)]
-        if records and files:
+        given = None if records is None else _listed(records)
+        memory = [record for record in given or () if isinstance(record, Record)]
+        files = [record for record in given or () if not isinstance(record, Record)]
+        if memory and files:
             raise InputError("records must be all in memory or all files", "records")
         native = _core.Study(
             text,
@@ -52,34 +77,34 @@ class Study:
             origin=origin,
             changes=list(_changes),
             files=files,
-            records=None if _records is None or files else named(records),
+            records=None if given is None or files else named(memory),
         )
-        values = {"_text": text, "_folder": os.fspath(folder), "_origin": origin, "_changes": _changes, "_records": _records}
+        values = {"_text": text, "_folder": os.fspath(folder), "_origin": origin, "_changes": _changes, "_records": given}
         for name, value in {**values, "_native": native}.items():
             object.__setattr__(self, name, value)
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Study:
-        """The study of a TOML file.
+    def read(cls, path: str | os.PathLike[str], *, records: RecordLike | Iterable[RecordLike] | None = None) -> Study:
+        """The study of a TOML file; with `records` in the place of its own, as `use` takes them.
 
         Raises
         ------
         InputError
             With the line and the key that is wrong.
         """
-        return cls(_core.Study.text(path), folder=Path(path).parent, origin=str(path))
+        return cls(_core.Study.text(path), folder=Path(path).parent, origin=str(path), records=records)
 
     def _like(self, **values: Any) -> Study:
-        given = {"folder": self._folder, "origin": self._origin, "_changes": self._changes, "_records": self._records}
+        given = {"folder": self._folder, "origin": self._origin, "_changes": self._changes, "records": self._records}
         return Study(self._text, **{**given, **values})
 
     def set(self, key: str, value: Any) -> Study:
         """The study with `value` for a key of its scene, such as "block.size_m"."""
         return self._like(_changes=(*self._changes, _core.change(key, plain(value))))
 
-    def use(self, records: Sequence[Record | str | os.PathLike[str]]) -> Study:
-        """The study with these records in the place of its own: all in memory, or all files and folders of files."""
-        return self._like(_records=tuple(record if isinstance(record, Record) else os.fspath(record) for record in records))
+    def use(self, records: RecordLike | Iterable[RecordLike]) -> Study:
+        """The study with these records in the place of its own: all in memory, or all files and folders of files; one may stand alone."""
+        return self._like(records=records)
 
     @property
     def devices(self) -> tuple[str, ...]:
@@ -116,7 +141,7 @@ class Study:
 
 
 def _restored(text: str, folder: str, origin: str, changes: tuple[str, ...], records: tuple[Record | str, ...] | None) -> Study:
-    return Study(text, folder=folder, origin=origin, _changes=changes, _records=records)
+    return Study(text, folder=folder, origin=origin, _changes=changes, records=records)
 
 
 @dataclass(frozen=True, eq=False)

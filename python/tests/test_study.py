@@ -57,6 +57,23 @@ def test_records_in_memory_are_those_of_files(folder: Path) -> None:
     assert memory.runs.to_pandas()["record"].tolist()[0] == "burst 0"
 
 
+def test_a_study_without_records_is_given_them(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "study.toml").write_text(TEXT)
+    with pytest.raises(sprag.InputError):
+        sprag.Study.read(tmp_path / "study.toml")
+    read = sprag.Study.read(tmp_path / "study.toml", records=folder / "records")
+    assert sprag.cloud(read).runs.columns.keys() == sprag.cloud(sprag.Study.read(folder / "study.toml")).runs.columns.keys()
+    study = sprag.Study(TEXT, records=records(4))
+    assert study == pickle.loads(pickle.dumps(study)) == sprag.Study(TEXT, records=iter(records(4)))
+    assert np.array_equal(sprag.cloud(study).runs["pgv"], sprag.cloud(read).runs["pgv"])
+    # One alone, and not the letters of its name.
+    (one,) = records(1)
+    file = str(folder / "records" / "burst 0.csv")
+    assert study.use(one) == study.use([one])
+    assert study.use(file) == study.use([file]) == study.use(Path(file))
+    assert sprag.cloud(study.use(file)).runs["pgv"].tolist() == sprag.cloud(study.use(one)).runs["pgv"].tolist()
+
+
 def test_studies_are_values(folder: Path) -> None:
     study = sprag.Study.read(folder / "study.toml").set("block.size_m", 3.0)
     copy = pickle.loads(pickle.dumps(study))
