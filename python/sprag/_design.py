@@ -9,13 +9,13 @@ from typing import Any
 from . import _core
 from ._columns import Columns
 from ._core import Record
-from ._result import Result
+from ._result import SceneResult
 from ._scene import Scene, named
 from ._study import answer
 
 
 @dataclass(frozen=True, eq=False)
-class Design(Result):
+class Design(SceneResult):
     """Parts of every device of a scene that has a flywheel.
 
     Attributes
@@ -45,7 +45,7 @@ class Design(Result):
     left_out: tuple[str, ...]
     scene: Scene = field(repr=False)
 
-    __hash__ = Result.__hash__
+    __hash__ = SceneResult.__hash__
 
     def _repr_markdown_(self) -> str:
         """The page, for notebooks."""

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._core import Situation
 from ._outcome import Outcome
-from ._result import Result, extra
+from ._result import SceneResult, extra
 from ._run import ErrorEstimate, Run, run_of
 from ._scene import Scene
 from .errors import InputError
@@ -38,7 +38,7 @@ Law = Callable[[Situation], "Wish | bool"]
 
 
 @dataclass(frozen=True, eq=False)
-class ClosedLoop(Result):
+class ClosedLoop(SceneResult):
     """A controller run over a scene: truth, sensors, estimates and commands of every control tick.
 
     Attributes
@@ -74,7 +74,7 @@ class ClosedLoop(Result):
     ideal_pair: Run = field(repr=False)
     scene: Scene = field(repr=False)
 
-    __hash__ = Result.__hash__
+    __hash__ = SceneResult.__hash__
 
     @property
     def t(self) -> npt.NDArray[np.float64]:
@@ -135,7 +135,7 @@ def closed_loop(
     law
         A function of the Situation at a control tick that returns a Wish, or whether to resist, in the place of the scene's law. It is
         called twice a tick, also for the true motion, by which its decisions are judged: let it depend on nothing else. A call costs
-        some microseconds, and other threads of Python run only between calls.
+        some microseconds, and other threads of Python run only while the function does.
     predicts
         Whether a law of one's own is asked about the instant at which its answer takes effect, and not about now.
     seed

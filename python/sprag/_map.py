@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._outcome import Outcome
-from ._result import Result, extra
+from ._result import SceneResult, extra
 from ._scene import Axis, Scene
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ Floats = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Map(Result):
+class Map(SceneResult):
     """Outcomes and peaks of blocks over one key of a scene, or two.
 
     Attributes
@@ -52,10 +52,10 @@ class Map(Result):
     peak_acceleration: Floats = field(repr=False)
     scene: Scene = field(repr=False)
 
-    __hash__ = Result.__hash__
+    __hash__ = SceneResult.__hash__
 
     def to_xarray(self) -> xarray.Dataset:
-        """The map with its axes as coordinates, with units and where it comes from; arrays are not copied."""
+        """The map with its axes as coordinates, with units and where it comes from; arrays are not copied, but axes."""
         dimensions = ("device", self.y_key or "cut", self.x_key)
         codes = {outcome.name.lower().replace("_", "-"): int(outcome) for outcome in Outcome.of_studies()}
         variables = {
@@ -63,7 +63,9 @@ class Map(Result):
             "peak_rotation": (dimensions, self.peak_rotation, {"units": "1", "long_name": "max |θ|/α"}),
             "peak_acceleration": (dimensions, self.peak_acceleration, {"units": "1", "long_name": "max |θ̈|/(p²α)"}),
         }
-        coordinates = dict(zip(dimensions, (list(self.devices), self.y, self.x), strict=True))
+        units = [{} if unit is None else {"units": unit} for unit in (None, _core.unit(self.y_key or ""), _core.unit(self.x_key))]
+        axes = zip(dimensions, (list(self.devices), self.y, self.x), units, strict=True)
+        coordinates = {name: (name, values, attributes) for name, values, attributes in axes}
         dataset: xarray.Dataset = extra("xarray").Dataset(variables, coords=coordinates, attrs=self.provenance())
         return dataset
 

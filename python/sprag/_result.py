@@ -17,9 +17,16 @@ if TYPE_CHECKING:
 
 
 class Result:
-    """A result: compares and hashes by its values, arrays by their bits."""
+    """A result: compares and hashes by its values, arrays by their bits; its arrays cannot be written to."""
 
-    scene: Scene
+    def __post_init__(self) -> None:
+        for array in arrays(self):
+            array.setflags(write=False)
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        # Arrays of a pickle can be written to.
+        self.__dict__.update(state)
+        self.__post_init__()
 
     def digest(self) -> str:
         """SHA-256 of all its numbers, the same on every machine."""
@@ -35,6 +42,12 @@ class Result:
 
     def __hash__(self) -> int:
         return hash(self.digest())
+
+
+class SceneResult(Result):
+    """A result of a scene."""
+
+    scene: Scene
 
     def provenance(self) -> dict[str, str]:
         """Version and scene, as attributes of data sets have them."""

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._columns import Columns
 from ._outcome import Outcome
-from ._result import Result, extra
+from ._result import SceneResult, extra
 from ._scene import Scene
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class ErrorEstimate:
 
 
 @dataclass(frozen=True, eq=False)
-class Run(Result):
+class Run(SceneResult):
     """The response of a block with one device. Names are those of scipy.integrate.solve_ivp.
 
     At a discontinuity, an impact or a switch of the clutch, two samples share their time: the left limit, then the right one.
@@ -116,7 +116,7 @@ class Run(Result):
     summary: dict[str, Any] = field(repr=False)
     scene: Scene = field(repr=False)
 
-    __hash__ = Result.__hash__
+    __hash__ = SceneResult.__hash__
 
     @property
     def rotation_rad(self) -> Floats:
@@ -149,7 +149,7 @@ class Run(Result):
         return str(self.summary["outcome"])
 
     def to_xarray(self) -> xarray.Dataset:
-        """The history over time, with units and where it comes from."""
+        """The history over time, with units and where it comes from; arrays are not copied, but times."""
         quantities = {
             "rotation": (self.rotation_rad, "rad"),
             "velocity": (self.velocity_rad_s, "rad/s"),
@@ -158,6 +158,7 @@ class Run(Result):
             "force_first": (self.force_ratio[0], "1"),
             "force_second": (self.force_ratio[1], "1"),
             "engaged": (self.engaged, "1"),
+            "displacement": (self.displacement_m, "m"),
         }
         variables = {name: ("time", values, {"units": unit}) for name, (values, unit) in quantities.items()}
         attributes = self.provenance() | {"device": self.device, "outcome": self.message}

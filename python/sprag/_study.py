@@ -17,7 +17,6 @@ from ._scene import Scene, named
 from ._table import plain
 from .errors import InputError
 
-
 RecordLike = Record | str | os.PathLike[str]
 
 

@@ -45,7 +45,7 @@ mod _core {
     #[pymodule_export]
     use crate::run::simulate;
     #[pymodule_export]
-    use crate::scene::{Scene, change, check_table};
+    use crate::scene::{Scene, change, check_table, unit};
     #[pymodule_export]
     use crate::study::{Study, accuracy, cloud, optimise};
 

@@ -166,6 +166,12 @@ pub fn change(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(format!("{key}={value}"))
 }
 
+/// The unit that the name of a key ends in; None where its value has none.
+#[pyfunction]
+pub fn unit(key: &str) -> Option<&'static str> {
+    sprag_sim::keys::unit::unit(key)
+}
+
 /// Tables of a scene that can be read on their own.
 macro_rules! parts {
     ($($name:literal: $part:ident($table:ty) = $($key:literal)/+;)*) => {

@@ -98,6 +98,14 @@ def test_arrays_are_handed_over_and_not_copied(scenes: Path) -> None:
     assert pickle.loads(pickle.dumps(made)) == made
 
 
+def test_axes_of_data_sets_have_units() -> None:
+    scene = sprag.Scene(block=sprag.Block(size_m=2.0, slenderness_deg=10.0), ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    x = sprag.Axis(key="ground.0.frequency_hz", start=1.0, stop=2.0, cells=2)
+    dataset = sprag.map(scene, x=x, y=sprag.Axis(key="block.restitution", start=0.5, stop=0.9, cells=2)).to_xarray()
+    assert dataset["ground.0.frequency_hz"].attrs == {"units": "Hz"}
+    assert dataset["block.restitution"].attrs == {}
+
+
 def test_a_block_that_passes_its_slenderness_and_comes_back_is_overturned_if_asked() -> None:
     block = sprag.Block(size_m=0.25, slenderness_deg=np.rad2deg(0.2), restitution="geometric")
     scene = sprag.Scene(block=block, ground=sprag.Sine(amplitude_ratio=1.0, frequency_hz=2.0))

@@ -81,6 +81,24 @@ def test_arrays_are_handed_over_and_not_copied() -> None:
     assert run.to_xarray().attrs["digest"] == run.digest()
 
 
+def test_data_sets_have_the_slide_of_the_base() -> None:
+    block = sprag.Block(size_m=2.0, slenderness_deg=30.0, friction_coefficient=0.3, restitution=0.5)
+    (run,) = sprag.simulate(sprag.Scene(block=block, ground=sprag.Ricker(amplitude_g=0.9, frequency_hz=1.0)))
+    slide = run.to_xarray().displacement
+    assert slide.attrs["units"] == "m"
+    assert np.array_equal(slide.values, run.displacement_m)
+    assert abs(slide).max() > 0.0
+
+
+def test_arrays_of_results_cannot_be_written() -> None:
+    block = sprag.Block(size_m=1.0, slenderness_deg=10.0, initial_rotation_ratio=0.5)
+    (run,) = sprag.simulate(sprag.Scene(block=block, output=sprag.Output(energy=True)))
+    for same in (run, pickle.loads(pickle.dumps(run))):
+        assert same.energy is not None
+        for array in (same.t, same.y, same.rotation_rad, same.t_events[0], same.y_events[1], same.energy["residual"]):
+            assert not array.flags.writeable
+
+
 def test_runs_compare_hash_and_pickle() -> None:
     scene = sprag.Scene(block=sprag.Block(size_m=1.0, slenderness_deg=10.0), ground=sprag.Sine(amplitude_g=0.4, frequency_hz=1.0))
     (run,), (again,) = sprag.simulate(scene), sprag.simulate(scene)

@@ -54,6 +54,8 @@ def test_records_in_memory_are_those_of_files(folder: Path) -> None:
     assert np.array_equal(memory.runs["pgv"], files.runs["pgv"])
     assert memory.demand.columns.keys() == files.demand.columns.keys()
     assert np.array_equal(memory.demand["b"], files.demand["b"], equal_nan=True)
+    # They are of a study, and of no scene.
+    assert not any(hasattr(result, "provenance") for result in (memory, memory.runs))
     assert memory.runs.to_pandas()["record"].tolist()[0] == "burst 0"
 
 
