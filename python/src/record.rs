@@ -1,10 +1,12 @@
 //! Recorded ground motions.
 
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyByteArray, PyBytes, PyComplex, PyString};
 use sprag_shared::math::fnv::Fnv;
 use sprag_sim::record::intensity::{cumulative_absolute_velocity_m_s, uniform_duration_s};
 use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, StatedStep, Units};
@@ -57,13 +59,17 @@ fn units_of(name: &str) -> PyResult<Units> {
 /// A copy of a one-dimensional array of numbers, whatever it is made of.
 pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Vec<f64>> {
     let numpy = object.py().import("numpy")?;
-    let refused = |reason: &Bound<'_, PyAny>| {
+    let refused = |reason: &dyn Display| {
         let range = "an array of real numbers";
         input(&format!("{name} must be {range}: {reason}"), Some(name), None, Some(range))
     };
     let of = |object: &Bound<'py, PyAny>, dtype: Option<&str>| {
         numpy.call_method1("asarray", (object, dtype)).map_err(|error| refused(error.value(object.py())))
     };
+    let ma = numpy.getattr("ma")?;
+    if object.is_instance(&ma.getattr("MaskedArray")?)? && ma.call_method1("is_masked", (object,))?.is_truthy()? {
+        return Err(refused(&"it has masked values"));
+    }
     let array = of(object, None)?;
     let shape: Vec<usize> = array.getattr("shape")?.extract()?;
     if shape.len() != 1 {
@@ -71,8 +77,20 @@ pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Vec<f64>
     }
     // Texts, times and the real parts of complex numbers would be taken for numbers.
     let dtype = array.getattr("dtype")?;
-    if !"biufO".contains(&dtype.getattr("kind")?.extract::<String>()?) {
+    let kind: String = dtype.getattr("kind")?.extract()?;
+    if !"biufO".contains(&kind) {
         return Err(refused(&dtype));
+    }
+    if kind == "O" {
+        let complex = numpy.getattr("complexfloating")?;
+        for item in array.try_iter()? {
+            let item = item?;
+            let is_text =
+                item.is_instance_of::<PyString>() || item.is_instance_of::<PyBytes>() || item.is_instance_of::<PyByteArray>();
+            if is_text || item.is_instance_of::<PyComplex>() || item.is_instance(&complex)? {
+                return Err(refused(&item.get_type().name()?));
+            }
+        }
     }
     Ok(of(&array, Some("float64"))?.extract::<PyReadonlyArray1<'_, f64>>()?.as_array().to_vec())
 }

@@ -28,7 +28,20 @@ TAKERS: dict[str, Callable[[Any], Any]] = {
     "bootstrap": lambda array: CURVE.bootstrap(array, resamples=3, threads=1)["low"],
 }
 
-NOT_REAL = [np.array([1 + 1j, 2]), np.array([1, 2], dtype="M8[s]"), ["1", "2"], [1.0, None], [1.0, "2"], [[1.0], [2.0, 3.0]], {1.0: 2.0}]
+NOT_REAL = [
+    np.array([1 + 1j, 2]),
+    np.array([1, 2], dtype="M8[s]"),
+    ["1", "2"],
+    [1.0, None],
+    [1.0, "2"],
+    [[1.0], [2.0, 3.0]],
+    {1.0: 2.0},
+    np.array(["1", "2"], dtype=object),
+    np.array([b"1", bytearray(b"2")], dtype=object),
+    np.array([1 + 1j, 2.0], dtype=object),
+    np.array([np.complex64(1 + 1j), 2.0], dtype=object),
+    np.ma.array([1.0, 9999.0], mask=[False, True]),
+]
 
 
 @given(st.sampled_from(sorted(TAKERS)), st.data())

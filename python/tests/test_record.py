@@ -64,6 +64,8 @@ def test_any_array_of_numbers_will_do() -> None:
     whole = sprag.Record([0.0, 2.0, 4.0], time_step_s=0.1)
     frozen = np.array([0.0, 2.0, 4.0])
     frozen.flags.writeable = False
+    objects, unmasked = np.array([0, 2.0, np.float32(4)], dtype=object), np.ma.array([0.0, 2.0, 4.0], mask=[False] * 3)
+    assert all(sprag.Record(samples, time_step_s=0.1) == whole for samples in (objects, unmasked))
     others = [frozen, np.arange(5.0)[::2], np.array([0, 2, 4]), np.array([0, 2, 4], dtype=np.float32), (0, 2, 4)]
     others[1] = np.arange(6.0)[::2]
     assert all(sprag.Record(samples, time_step_s=0.1) == whole for samples in others)
