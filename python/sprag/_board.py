@@ -10,7 +10,7 @@ from typing import Any
 
 from . import _core
 from ._columns import Columns
-from ._loop import ClosedLoop, loop_of, number_of
+from ._loop import ClosedLoop, loop_of, number_of, seed_of
 from ._result import Result
 from ._scene import Scene
 from .errors import InputError
@@ -120,6 +120,6 @@ class Board:
         InputError
             For a scene without a loop.
         """
-        native = _core.board_loop(self, scene._native, number_of(scene, device), seed)
+        native = _core.board_loop(self, scene._native, number_of(scene, device), seed_of(seed))
         board, host = (loop_of(native.pop(name), scene) for name in ("board", "host"))
         return BoardLoop(board=board, host=host, **native)

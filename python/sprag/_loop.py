@@ -95,7 +95,18 @@ def number_of(scene: Scene, device: int | str | None) -> int | None:
                 f"device is {device!r}, but must be one of {', '.join(scene.devices)}", "device", device, ", ".join(scene.devices)
             )
         return scene.devices.index(device)
+    if device is not None and not 0 <= device < len(scene.devices):
+        within = f"a whole number from 0 to {len(scene.devices) - 1}"
+        raise InputError(f"device is {device}, but must be {within}", "device", device, within)
     return device
+
+
+def seed_of(seed: int | None) -> int | None:
+    """A seed that the native module has room for."""
+    if seed is not None and not 0 <= seed < 2**64:
+        within = "a whole number from 0 to 18446744073709551615"
+        raise InputError(f"seed is {seed}, but must be {within}", "seed", seed, within)
+    return seed
 
 
 def loop_of(native: dict[str, Any], scene: Scene) -> ClosedLoop:
@@ -139,7 +150,7 @@ def closed_loop(
     predicts
         Whether a law of one's own is asked about the instant at which its answer takes effect, and not about now.
     seed
-        Seed of the sensors' errors and noise, in the place of the scene's.
+        Seed of the sensors' errors and noise, in the place of the scene's; 0 to 2⁶⁴ − 1.
 
     Raises
     ------
@@ -148,5 +159,5 @@ def closed_loop(
     RunError
         For a motion that cannot be followed.
     """
-    native = _core.closed_loop(scene._native, device=number_of(scene, device), seed=seed, law=law, predicts=predicts)
+    native = _core.closed_loop(scene._native, device=number_of(scene, device), seed=seed_of(seed), law=law, predicts=predicts)
     return loop_of(native, scene)

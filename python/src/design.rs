@@ -60,7 +60,7 @@ pub fn design<'py>(
     records: Named,
     devices: Vec<String>,
     basis: Assumed,
-    threads: Option<usize>,
+    threads: Option<i64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let scene = &scene.scene;

@@ -1,5 +1,7 @@
 //! Demand models and fragilities of anybody's runs.
 
+use std::fmt::Display;
+
 use numpy::{IntoPyArray as _, PyArray1};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
@@ -215,10 +217,11 @@ impl Fragility {
         py: Python<'py>,
         intensity: &Bound<'py, PyAny>,
         level: f64,
-        resamples: u32,
+        resamples: i64,
         seed: u64,
-        threads: Option<usize>,
+        threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let resamples = u32::try_from(resamples).map_err(|_| resamples_refused(resamples))?;
         let bootstrap = Bootstrap { resamples, seed, level: confidence(level)? };
         let (intensities, pool) = (intensities(intensity)?, self::threads(threads)?);
         let bands =
@@ -317,6 +320,10 @@ fn confidence(level: f64) -> PyResult<Level> {
     Level::new(level).map_err(|_| range("level", level, "above 0 and below 1"))
 }
 
+fn resamples_refused(value: impl Display) -> PyErr {
+    range("resamples", value, "from 1 to 1000000")
+}
+
 /// Lower and upper ends of `bands`.
 fn ends<'py>(py: Python<'py>, bands: impl Iterator<Item = Band>) -> (Column<'py>, Column<'py>) {
     let (low, high): (Vec<f64>, Vec<f64>) = bands.map(|band| (band.low, band.high)).unzip();
@@ -359,7 +366,7 @@ impl Raise for FragilityError {
 impl Raise for BootstrapError {
     fn raise(self) -> PyErr {
         match self {
-            BootstrapError::Resamples { value } => range("resamples", value, "from 1 to 1000000"),
+            BootstrapError::Resamples { value } => resamples_refused(value),
             BootstrapError::Intensity { index, value } => range(&format!("intensity.{index}"), value, "above 0 and finite"),
             BootstrapError::Observation(error) => error.raise(),
             BootstrapError::Resample { .. } => failed(self),

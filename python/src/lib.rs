@@ -65,10 +65,12 @@ mod _core {
 ///
 /// # Errors
 /// `InputError` for a number of threads that cannot be had.
-fn threads(number: Option<usize>) -> PyResult<rayon::ThreadPool> {
-    if number.is_some_and(|number| !(1..=1024).contains(&number)) {
-        return Err(errors::range("threads", number.unwrap_or_default(), "a whole number from 1 to 1024"));
-    }
+fn threads(number: Option<i64>) -> PyResult<rayon::ThreadPool> {
+    let within = |number: i64| match usize::try_from(number) {
+        Ok(threads @ 1..=1024) => Ok(threads),
+        _ => Err(errors::range("threads", number, "a whole number from 1 to 1024")),
+    };
+    let number = number.map(within).transpose()?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(number.unwrap_or(0)).build();
     pool.map_err(|error| errors::failed(format!("the threads cannot be started: {error}")))
 }

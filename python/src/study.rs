@@ -117,7 +117,7 @@ fn stopped(error: RunError) -> PyErr {
 /// `InputError` for a study of no records.
 #[pyfunction]
 #[pyo3(signature = (study, *, threads = None))]
-pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyResult<Bound<'py, PyDict>> {
+pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {
@@ -153,7 +153,7 @@ pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyR
 /// `InputError` for a study that asks for no device, or has no records.
 #[pyfunction]
 #[pyo3(signature = (study, *, threads = None))]
-pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> PyResult<Bound<'py, PyDict>> {
+pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {
@@ -196,14 +196,14 @@ pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<usize>) -> 
 pub fn accuracy<'py>(
     py: Python<'py>,
     scene: &Scene,
-    cells: u8,
+    cells: i64,
     smallest_step: f64,
-    threads: Option<usize>,
+    threads: Option<i64>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
-    if !CELLS.contains(&cells) {
+    let Some(cells) = u8::try_from(cells).ok().filter(|cells| CELLS.contains(cells)) else {
         return Err(range("cells", cells, &format!("from {} to {}", CELLS.start(), CELLS.end())));
-    }
+    };
     if !SMALLEST_STEPS.contains(&smallest_step) {
         return Err(range(
             "smallest_step",

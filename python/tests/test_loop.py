@@ -86,7 +86,11 @@ def test_scenes_without_a_loop_are_refused(scene: sprag.Scene) -> None:
         with pytest.raises(sprag.InputError) as raised:
             sprag.closed_loop(scene.set(key, value))
         assert raised.value.key == refused
-    for device in [7, "absent"]:
+    for device in [7, "absent", -1, 2**70]:
         with pytest.raises(sprag.InputError) as raised:
             sprag.closed_loop(scene, device=device)
         assert raised.value.key == "device"
+    for seed in [-1, 2**64]:
+        with pytest.raises(sprag.InputError) as raised:
+            sprag.closed_loop(scene, seed=seed)
+        assert (raised.value.key, raised.value.value) == ("seed", seed)

@@ -138,7 +138,7 @@ def test_axes_that_cannot_be_are_refused(scenes: Path, axis: dict[str, object], 
     assert raised.value.key == key
 
 
-@pytest.mark.parametrize("threads", [0, 5000])
+@pytest.mark.parametrize("threads", [0, 5000, -1])
 def test_threads_that_cannot_be_are_refused(scenes: Path, threads: int) -> None:
     with pytest.raises(sprag.InputError) as raised:
         sprag.map(sprag.Scene.read(scenes / "figure08.toml"), threads=threads)

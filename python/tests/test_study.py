@@ -144,6 +144,10 @@ def test_a_fragility_is_that_of_its_likelihood() -> None:
     again = few.bootstrap([2.0, 4.0], resamples=50, threads=1)
     assert all(np.array_equal(bands[name], again[name]) for name in bands)
     assert (bands["low"] <= bands["high"]).all()
+    for keywords, key in [({"resamples": -1}, "resamples"), ({"resamples": 2**40}, "resamples"), ({"threads": -1}, "threads")]:
+        with pytest.raises(sprag.InputError) as raised:
+            few.bootstrap([2.0], **keywords)
+        assert raised.value.key == key
     none = sprag.fragility(intensity=[1.0, 2.0], overturned=[0, 0])
     assert none.median is None
     assert str(none.reason).startswith("none of 2 runs overturned")
@@ -166,7 +170,14 @@ def test_accuracy_is_a_table_of_methods(scenes: Path) -> None:
     scene = sprag.Scene.read(scenes / "figure05.toml")
     table = sprag.accuracy(scene, cells=0, smallest_step=0.05)
     assert len(table) > 3
-    for keywords, key in [({"cells": 65}, "cells"), ({"smallest_step": math.nan}, "smallest_step"), ({"threads": 0}, "threads")]:
+    for keywords, key in [
+        ({"cells": 65}, "cells"),
+        ({"cells": 300}, "cells"),
+        ({"cells": -1}, "cells"),
+        ({"smallest_step": math.nan}, "smallest_step"),
+        ({"threads": 0}, "threads"),
+        ({"threads": -1}, "threads"),
+    ]:
         with pytest.raises(sprag.InputError) as raised:
             sprag.accuracy(scene, **keywords)
         assert raised.value.key == key
