@@ -40,7 +40,7 @@ pub struct EncoderTable {
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously.
-    #[schemars(range(min = 0.0, max = 0.1))]
+    #[schemars(range(min = 0.0, max = 0.1), example = 0.001)]
     pub latency_s: Option<f64>,
 }
 

@@ -59,7 +59,7 @@ pub struct GyroscopeTable {
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously.
-    #[schemars(range(min = 0.0, max = 0.1))]
+    #[schemars(range(min = 0.0, max = 0.1), example = 0.001)]
     pub latency_s: Option<f64>,
 }
 
@@ -110,7 +110,7 @@ pub struct AccelerometerTable {
     #[schemars(range(min = 0.0, max = 0.1))]
     pub jitter_s: Option<f64>,
     /// Time until a reading is known; up to 32 periods, or substeps of a tick where it is read continuously.
-    #[schemars(range(min = 0.0, max = 0.1))]
+    #[schemars(range(min = 0.0, max = 0.1), example = 0.001)]
     pub latency_s: Option<f64>,
 }
 
