@@ -7,6 +7,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::rest::free_decay::Decay;
+use crate::motion::rest::impact_accumulation::Accumulation;
 
 /// Event of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,8 +72,11 @@ pub trait Observer<S: Real> {
     /// An event, with the state after it.
     fn event(&mut self, _event: Event, _time: S, _state: &BlockState<S>) {}
 
-    /// Swings that are summed in closed form: a free decay, or impacts that accumulate to rest, which then is an event.
+    /// Free decay: the remaining swings, summed in closed form.
     fn decay(&mut self, _decay: &Decay<S>) {}
+
+    /// Impacts that accumulate to rest, summed in closed form; the rest is an event of its own.
+    fn accumulation(&mut self, _tail: &Accumulation<S>) {}
 }
 
 /// Observer that ignores everything.

@@ -4,6 +4,7 @@ use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::free_decay::Decay;
+use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::BlockState;
 
 /// Largest rotation and angular acceleration, and the first impact.
@@ -34,6 +35,10 @@ impl<S: Real> Observer<S> for Peaks<S> {
     fn decay(&mut self, decay: &Decay<S>) {
         self.rotation = self.rotation.larger(decay.rotation);
         self.acceleration = self.acceleration.larger(decay.acceleration);
+    }
+
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.acceleration = tail.raise(self.acceleration);
     }
 
     #[inline]

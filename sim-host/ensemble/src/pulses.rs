@@ -261,7 +261,7 @@ pub(crate) fn run<M: Model, const PAIR: bool>(
                 let speed = blocks.velocity.0[lane];
                 let (next, rested, tail) = sine.after_weak_impact::<M, PAIR>(pulses.time.0[lane], push, speed, &block.plain);
                 if let Some(tail) = tail {
-                    blocks.peak_acceleration.0[lane] = blocks.peak_acceleration.0[lane].max(tail.acceleration);
+                    blocks.peak_acceleration.0[lane] = tail.raise(blocks.peak_acceleration.0[lane]);
                     if let Some(watch) = &mut watch {
                         watch.rests(lane, rested, tail.impacts);
                     }

@@ -234,7 +234,7 @@ impl<'a, 'b> Lanes<'a, 'b> {
         let tail = tail::<M, PAIR>(push, speed, &block.plain);
         let rest = tail.rest(time, step, negligible, |at| push_at(at).abs() < 1.0);
         let Some(ends) = rest else { return AfterWeakImpact::Rocks };
-        self.blocks.peak_acceleration.0[lane] = self.blocks.peak_acceleration.0[lane].max(tail.acceleration);
+        self.blocks.peak_acceleration.0[lane] = tail.raise(self.blocks.peak_acceleration.0[lane]);
         place.impacts += tail.impacts;
         place.peaks.ended = Some(self.seconds(&place, ends));
         self.at[lane] = Some(place);

@@ -6,6 +6,7 @@ use sprag_shared::math::sign::Sign;
 use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
@@ -104,8 +105,11 @@ impl<S: Real, const EVERY: bool> Observer<S> for Log<S, EVERY> {
 
     fn decay(&mut self, decay: &Decay<S>) {
         self.peaks.decay(decay);
-        // Impacts that accumulate to rest show no rotation.
-        self.decays += u32::from(decay.rotation > S::ZERO);
+        self.decays += 1;
+    }
+
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.peaks.accumulation(tail);
     }
 }
 

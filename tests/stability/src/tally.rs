@@ -4,7 +4,7 @@ use sprag_shared::equation::motion::Motion;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::peaks::Peaks;
 
@@ -159,8 +159,8 @@ impl<S: Real> Observer<S> for Tally<S> {
         self.speed = interval.last.velocity.abs().to_f64();
     }
 
-    fn decay(&mut self, decay: &Decay<S>) {
-        self.peaks.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.peaks.accumulation(tail);
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {

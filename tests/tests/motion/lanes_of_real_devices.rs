@@ -13,7 +13,7 @@ use sprag_shared::math;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::ledger::{Account, Clutching};
@@ -101,8 +101,8 @@ impl Observer<f64> for Both {
         self.1.event(event, time, state);
     }
 
-    fn decay(&mut self, decay: &Decay<f64>) {
-        self.0.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<f64>) {
+        self.0.accumulation(tail);
     }
 }
 

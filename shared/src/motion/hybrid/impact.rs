@@ -67,7 +67,7 @@ impl<S: Real> HybridSystem<S> {
         let tail = self.accumulation(&standing, velocity.abs());
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
-        observer.decay(&tail.decay());
+        observer.accumulation(&tail);
         *state = standing;
         state.motion.impacts += tail.impacts;
         observer.event(Event::Rest, ends, &state.motion);

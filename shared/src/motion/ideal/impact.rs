@@ -45,7 +45,7 @@ impl<S: Real> IdealSystem<S> {
             let tail = self.accumulation(state.side, state.velocity.abs(), ground);
             let negligible = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             if let Some(ends) = tail.rest(time, duration, negligible, |at| segment.acceleration(at).abs() < self.uplift) {
-                observer.decay(&tail.decay());
+                observer.accumulation(&tail);
                 *state = state.rested(state.impacts + tail.impacts);
                 observer.event(Event::Rest, ends, state);
                 return ends;

@@ -3,11 +3,13 @@
 //! θ is too small to change the rates: on each side the block decelerates at a₁ and falls back at a₂, so a swing that starts at
 //! θ̇ = v lasts v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
 
-use super::free_decay::Decay;
 use crate::math::scalar::Real;
 
 /// Pairs of swings that are followed in one segment of the ground when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
+
+/// Relative difference up to which |θ̈| of the impacts that accumulate has been seen in swings before them.
+const SHOWN: f64 = 1e-4;
 
 /// Sums over an impact accumulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,10 +54,10 @@ impl<S: Real> Accumulation<S> {
         Accumulation { duration, swing: speed * (here + there), impacts, acceleration }
     }
 
-    /// As the decay of a free motion to rest, for who keeps peaks; the rotations are too small to matter.
-    pub fn decay(&self) -> Decay<S> {
-        let Accumulation { duration, impacts, acceleration, .. } = *self;
-        Decay { duration, impacts, acceleration, rotation: S::ZERO, speed: S::ZERO }
+    /// The largest |θ̈| of a motion that had `peak` before them (rad/s²). Swings before them have shown theirs already, but for what the ground
+    /// changes in so short a time.
+    pub fn raise(&self, peak: S) -> S {
+        if self.acceleration > peak * (S::ONE + S::of(SHOWN)) { self.acceleration } else { peak }
     }
 
     /// When a block whose impact at `time` they follow is at rest, in a segment of the ground that lasts until `duration` (local times,

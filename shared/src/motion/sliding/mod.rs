@@ -285,7 +285,7 @@ impl<S: Real> SlidingSystem<S> {
         // Where the toe would slip in each of the swings, none of them is worth following.
         let negligible = speed <= nothing || state.contact != Contact::Sticks;
         let Some(ends) = tail.rest(time, duration, negligible, |at| self.stands(ground.at(at))) else { return time };
-        observer.decay(&tail.decay());
+        observer.accumulation(&tail);
         state.motion = state.motion.rested(state.motion.impacts + tail.impacts);
         if state.contact != Contact::Sticks {
             state.contact = Contact::Sticks;

@@ -2,7 +2,7 @@
 
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
@@ -28,7 +28,7 @@ impl Observer<f64> for Watch<'_> {
         }
     }
 
-    fn decay(&mut self, decay: &Decay<f64>) {
-        self.peaks.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<f64>) {
+        self.peaks.accumulation(tail);
     }
 }

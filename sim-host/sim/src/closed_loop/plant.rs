@@ -11,7 +11,7 @@ use sprag_shared::motion::hybrid::footing::Footing;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
 use super::path::Path;
@@ -344,8 +344,8 @@ impl Observer<f64> for Watched<'_> {
         self.2.event(event, time, state);
     }
 
-    fn decay(&mut self, decay: &Decay<f64>) {
-        self.0.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<f64>) {
+        self.0.accumulation(tail);
     }
 }
 

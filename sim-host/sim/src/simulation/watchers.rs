@@ -4,7 +4,7 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::ideal::device_view::Watched;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::peaks::Peaks;
@@ -56,8 +56,8 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
         self.asked.event(event, time, state);
     }
 
-    fn decay(&mut self, decay: &Decay<S>) {
-        self.peaks.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.peaks.accumulation(tail);
     }
 }
 

@@ -15,7 +15,7 @@ use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::rest::free_decay::Decay;
+use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::BlockState;
 
 /// Shows an observer the motion of an ideal device as that of one with a memory, by [`Observer::device_interval`].
@@ -53,8 +53,8 @@ impl<S: Real, P: GroundSegment<S>, O: Observer<S>> Observer<S> for Watched<'_, S
         self.observer.event(event, time, state);
     }
 
-    fn decay(&mut self, decay: &Decay<S>) {
-        self.observer.decay(decay);
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.observer.accumulation(tail);
     }
 }
 
