@@ -211,16 +211,19 @@ impl Fragility {
 
     /// The same by resampling the runs (Efron and Tibshirani 1993), as a dict: `low`, `median` and `high` of the probability at each
     /// intensity, and the share of resamples that have no curve.
-    #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = 1, threads = None))]
+    #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = None, threads = None), text_signature = "(intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
     fn bootstrap<'py>(
         &self,
         py: Python<'py>,
         intensity: &Bound<'py, PyAny>,
         level: f64,
         resamples: i64,
-        seed: u64,
+        seed: Option<&Bound<'py, PyAny>>,
         threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let seed = seed.map_or(Ok(1), |seed| {
+            seed.extract().map_err(|_| range("seed", seed, "a whole number from 0 to 18446744073709551615"))
+        })?;
         let resamples = u32::try_from(resamples).map_err(|_| resamples_refused(resamples))?;
         let bootstrap = Bootstrap { resamples, seed, level: confidence(level)? };
         let (intensities, pool) = (intensities(intensity)?, self::threads(threads)?);

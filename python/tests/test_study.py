@@ -144,7 +144,8 @@ def test_a_fragility_is_that_of_its_likelihood() -> None:
     again = few.bootstrap([2.0, 4.0], resamples=50, threads=1)
     assert all(np.array_equal(bands[name], again[name]) for name in bands)
     assert (bands["low"] <= bands["high"]).all()
-    for keywords, key in [({"resamples": -1}, "resamples"), ({"resamples": 2**40}, "resamples"), ({"threads": -1}, "threads")]:
+    wrong = [{"resamples": -1}, {"resamples": 2**40}, {"threads": -1}, {"seed": -1}, {"seed": 2**64}]
+    for keywords, key in [(keywords, *keywords) for keywords in wrong]:
         with pytest.raises(sprag.InputError) as raised:
             few.bootstrap([2.0], **keywords)
         assert raised.value.key == key
