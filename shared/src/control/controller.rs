@@ -340,6 +340,7 @@ impl<L: Law> Controller<L> {
             wish: wanted,
             standing: estimate.standing,
             estimate: (estimate.rotation, estimate.velocity),
+            lever: self.lever(state, sample, &estimate),
             lateness: circumstances.lateness,
             requests: circumstances.requests,
             coils: circumstances.coils,
@@ -367,6 +368,17 @@ impl<L: Law> Controller<L> {
             }
         }
         Decision { command: verdict.command, estimate, wish, phase: verdict.phase, fault: verdict.fault }
+    }
+
+    /// ℓ of the rack over ℓ at |θ| = α/2, by its count. After power-on in motion a count says nothing of it until an impact has shown where
+    /// θ = 0 is.
+    #[inline]
+    fn lever(&self, state: &ControllerState, sample: &Sample, estimate: &Estimate) -> f32 {
+        if !(state.supervisor.calibrated() || estimate.located(self.model.parameters.slenderness)) {
+            return 0.0;
+        }
+        let counts = sample.encoder.counts.wrapping_sub(state.supervisor.calibration().encoder_zero);
+        self.model.rack_lever.at(state.estimator.travelled(counts as f32 * self.instruments.travel_per_count))
     }
 }
 

@@ -1,7 +1,9 @@
 //! The structure as the controller believes it to be.
 //!
 //! The same bodies that the simulator integrates ([`crate::equation::body`]), in single precision: what the controller knows of the
-//! dynamics is written nowhere else.
+//! dynamics is written nowhere else. [`rack_lever`]: the lever of the rack by its travel.
+
+pub mod rack_lever;
 
 use crate::equation::any_body::{AnyBody, AnyConfiguration};
 use crate::equation::body::Body;
@@ -10,6 +12,7 @@ use crate::structure::Structure;
 use crate::structure::device::KinematicsKind;
 use crate::structure::drivetrain::{Drivetrain, Engagement};
 use crate::structure::error::{ParameterError, require};
+use rack_lever::RackLever;
 
 /// What the controller knows of the structure beside its body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +48,8 @@ pub struct Model {
     pub body: AnyBody<f32>,
     /// The rest.
     pub parameters: ModelParameters,
+    /// The lever of the rack by its travel.
+    pub rack_lever: RackLever,
     /// Travel over R of each side's toe at θ = 0, by [`Body::travel`], for s = +1.
     standing_travel: f32,
     /// Lever of the rack over R at θ = 0.
@@ -55,7 +60,13 @@ impl Model {
     /// Of a `body` in single precision, to the same bits wherever it is made.
     pub fn of(body: AnyBody<f32>, parameters: ModelParameters) -> Model {
         let standing = body.configuration(1.0, 0.0);
-        Model { body, parameters, standing_travel: body.travel(1.0, &standing), standing_arm: body.arm(&standing) }
+        Model {
+            body,
+            parameters,
+            rack_lever: RackLever::of(&body, parameters.slenderness),
+            standing_travel: body.travel(1.0, &standing),
+            standing_arm: body.arm(&standing),
+        }
     }
 
     /// Of a structure with its drivetrain. What it carries is folded into the block.

@@ -51,6 +51,12 @@ impl EstimatorState {
         (self.lost, self.reference) = (true, Reference::unknown());
     }
 
+    /// What an encoder with a `travel` (over R) has travelled from θ = 0, as far as anybody knows.
+    #[inline]
+    pub fn travelled(&self, travel: f32) -> f32 {
+        travel - self.offset
+    }
+
     /// The biases that are subtracted before have grown by a `travel` (over R) of the encoder and a `rate` (rad/s) of the gyroscope.
     pub fn rebase(&mut self, travel: f32, rate: f32) {
         self.offset -= travel;
@@ -78,7 +84,7 @@ impl EstimatorState {
     #[inline]
     pub(super) fn encoder_error(&self, model: &Model, instruments: &Instruments, travel: f32) -> f32 {
         let then = self.rotation - self.velocity * instruments.encoder_delay;
-        let travel = travel - self.offset;
+        let travel = self.travelled(travel);
         model.rotation_of_travel(travel, then, Sign::of(travel, self.side)) - then
     }
 

@@ -8,8 +8,6 @@ pub(super) const SLOTS: u32 = 8;
 pub(super) struct AgreementLimits {
     /// s.
     pub period: f32,
-    /// Encoder counts per rad of the block; 0 for no comparison.
-    pub counts_per_radian: f32,
     /// Ticks of a slot of the fast and of the slow window.
     pub slots: [u32; 2],
     /// Counts by which they may differ whatever the motion.
@@ -33,9 +31,9 @@ pub(super) enum Disagreement {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Slot {
-    /// rad by the gyroscope.
-    angle: f32,
-    /// Largest |rate|, rad/s.
+    /// Counts by the gyroscope and the lever.
+    expected: f32,
+    /// Largest size of their rate, counts/s.
     peak: f32,
     /// Change of the count, and how far it went to and fro, up to [`FARTHEST`].
     counts: i32,
@@ -48,7 +46,7 @@ const FARTHEST: u32 = u32::MAX / (2 * SLOTS);
 impl Slot {
     #[inline]
     fn add(&mut self, news: Slot) {
-        self.angle += news.angle;
+        self.expected += news.expected;
         if news.peak > self.peak {
             self.peak = news.peak;
         }
@@ -64,8 +62,8 @@ impl Slot {
 struct Window {
     /// In a ring.
     slots: [Slot; SLOTS as usize],
-    /// Their angles, twice over, so that they can be read in a row from any of them.
-    angles: [f32; 2 * SLOTS as usize],
+    /// What each expects, twice over, so that they can be read in a row from any of them.
+    expected: [f32; 2 * SLOTS as usize],
     /// Which of them is the newest.
     newest: usize,
     /// Sums over the slots; whole numbers, so that nothing is lost when they are kept up.
@@ -102,8 +100,8 @@ impl Window {
         self.counts = self.counts.wrapping_add(closed.counts).wrapping_sub(slot.counts);
         self.travel = (self.travel + closed.travel).wrapping_sub(slot.travel);
         *slot = closed;
-        self.angles[self.newest & LAST] = closed.angle;
-        self.angles[(self.newest & LAST) + SLOTS as usize] = closed.angle;
+        self.expected[self.newest & LAST] = closed.expected;
+        self.expected[(self.newest & LAST) + SLOTS as usize] = closed.expected;
         self.found = limits.judge(self, rate_tolerance, length);
     }
 
@@ -118,15 +116,14 @@ const LAST: usize = SLOTS as usize - 1;
 const _: () = assert!(SLOTS.is_power_of_two());
 
 impl AgreementLimits {
-    /// What a window with slots of `length` ticks shows.
+    /// What a window with slots of `length` ticks shows; the gyroscope is known to `rate_tolerance` (counts/s).
     #[inline(always)]
     fn judge(&self, window: &Window, rate_tolerance: f32, length: u32) -> Option<Disagreement> {
         let first = (window.newest & LAST) + 1;
-        let in_a_row = window.angles.get(first..first + SLOTS as usize).unwrap_or_default();
-        let angle = in_a_row.iter().copied().reduce(|sum, angle| sum + angle).unwrap_or(0.0);
-        let expected = self.counts_per_radian * angle;
+        let in_a_row = window.expected.get(first..first + SLOTS as usize).unwrap_or_default();
+        let expected = in_a_row.iter().copied().reduce(|sum, slot| sum + slot).unwrap_or(0.0);
         let counted = window.counts as f32;
-        if (expected - counted).abs() <= self.counts || self.counts_per_radian == 0.0 {
+        if (expected - counted).abs() <= self.counts {
             return None;
         }
         self.judge_apart(window, rate_tolerance, length, expected, counted)
@@ -147,8 +144,7 @@ impl AgreementLimits {
         // Where nothing at all is counted it is no matter of the lever.
         let share = if window.travel == 0 { 0.0 } else { self.share * if ahead { expected.abs() } else { counted.abs() } };
         // A reading that is late by a delay lacks what moved meanwhile. This is what lets an impact and a single bad reading pass.
-        let allowed =
-            |peak: f32| self.counts + self.counts_per_radian.abs() * (rate_tolerance * duration + self.delay * peak) + share;
+        let allowed = |peak: f32| self.counts + rate_tolerance * duration + self.delay * peak + share;
         // Most of the time nobody needs to know the peak.
         if off <= allowed(0.0) {
             return None;
@@ -176,13 +172,18 @@ pub(super) struct Agreement {
 }
 
 impl Agreement {
-    /// One tick of `rate` (rad/s, finite, less its bias), known to `rate_tolerance`, and `counts`.
+    /// One tick of `rate` (rad/s, finite, less its bias), known to `rate_tolerance`, and `counts`, with so many counts per rad of the block
+    /// now as `scale` says; 0 for no comparison.
     #[inline(always)]
-    pub fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, rate: f32, counts: i32) {
+    pub fn step(&mut self, limits: &AgreementLimits, rate_tolerance: f32, rate: f32, scale: f32, counts: i32) {
         let change = counts.wrapping_sub(self.counts.unwrap_or(counts));
         self.counts = Some(counts);
-        let news =
-            Slot { angle: rate * limits.period, peak: rate.abs(), counts: change, travel: change.unsigned_abs().min(FARTHEST) };
+        let speed = scale * rate;
+        // What cannot be compared must not look like a difference, now or later.
+        let compared = if scale == 0.0 { 0 } else { change };
+        let travel = change.unsigned_abs().min(FARTHEST);
+        let news = Slot { expected: speed * limits.period, peak: speed.abs(), counts: compared, travel };
+        let rate_tolerance = rate_tolerance * scale.abs();
         let ([fast, slow], [fast_length, slow_length]) = (&mut self.windows, limits.slots);
         // Nothing needs to be gathered where a slot is a tick.
         if fast_length <= 1 {
@@ -210,20 +211,22 @@ impl Agreement {
 mod tests {
     use super::*;
 
-    const LIMITS: AgreementLimits =
-        AgreementLimits { period: 0.0005, counts_per_radian: 1e5, slots: [1, 16], counts: 4.0, share: 0.25, delay: 0.002 };
+    const LIMITS: AgreementLimits = AgreementLimits { period: 0.0005, slots: [1, 16], counts: 4.0, share: 0.25, delay: 0.002 };
+
+    /// Counts per rad of the block.
+    const SCALE: f32 = 1e5;
 
     /// Ticks until they disagree, and how.
     fn found(rate: impl Fn(u32) -> f32, counts: impl Fn(u32) -> i32) -> Option<(u32, Disagreement)> {
         let mut agreement = Agreement::default();
         (0..2000).find_map(|tick| {
-            agreement.step(&LIMITS, 0.02, rate(tick), counts(tick));
+            agreement.step(&LIMITS, 0.02, rate(tick), SCALE, counts(tick));
             agreement.found().map(|found| (tick, found))
         })
     }
 
     fn travelled(rate: f32, tick: u32) -> i32 {
-        (rate * 0.0005 * 1e5 * tick as f32) as i32
+        (rate * 0.0005 * SCALE * tick as f32) as i32
     }
 
     #[test]
@@ -272,19 +275,40 @@ mod tests {
 
     #[test]
     fn without_counts_to_a_radian_nothing_is_compared() {
-        let limits = AgreementLimits { counts_per_radian: 0.0, ..LIMITS };
         let mut agreement = Agreement::default();
         for tick in 0..2000 {
-            agreement.step(&limits, 0.02, 0.0, 1000 * tick);
+            agreement.step(&LIMITS, 0.02, 0.0, 0.0, 1000 * tick);
             assert_eq!(agreement.found(), None);
         }
+        // Nor is what has moved until then held against what comes when they are known.
+        for _ in 0..2000 {
+            agreement.step(&LIMITS, 0.02, 0.0, SCALE, 1_999_000);
+            assert_eq!(agreement.found(), None);
+        }
+    }
+
+    /// A rack whose lever grows to eight times itself within a second, as that of a low tying point does; and one that does not, though it
+    /// should.
+    #[test]
+    fn the_lever_may_change_as_the_geometry_says_and_not_otherwise() {
+        let lever = |tick: u32| SCALE * (0.25 + 0.000_875 * tick as f32);
+        let rack = |tick: u32| (0..tick).map(|k| 0.0005 * f64::from(lever(k))).sum::<f64>() as i32;
+        let (mut right, mut wrong) = (Agreement::default(), Agreement::default());
+        let mut found = false;
+        for tick in 0..2000 {
+            right.step(&LIMITS, 0.02, 1.0, lever(tick), rack(tick));
+            assert_eq!(right.found(), None, "{tick}");
+            wrong.step(&LIMITS, 0.02, 1.0, SCALE, rack(tick));
+            found |= wrong.found().is_some();
+        }
+        assert!(found);
     }
 
     #[test]
     fn travel_is_that_of_the_fast_window() {
         let mut agreement = Agreement::default();
         for (tick, expected) in [0, 1, 2, 2, 2, 2, 2, 2, 2, 1, 0].into_iter().enumerate() {
-            agreement.step(&LIMITS, 0.02, 0.0, [0, 1, 0][tick.min(2)]);
+            agreement.step(&LIMITS, 0.02, 0.0, SCALE, [0, 1, 0][tick.min(2)]);
             assert_eq!(agreement.travel(), expected, "{tick}");
         }
     }

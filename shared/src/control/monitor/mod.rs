@@ -34,6 +34,7 @@ pub struct Monitor {
     encoder_stale: u32,
     travel: u32,
     agreement: AgreementLimits,
+    counts_per_radian: f32,
     quiet_ticks: u32,
     rest_ticks: u32,
     rest_tolerance: f32,
@@ -63,6 +64,8 @@ pub struct Context<'a> {
     pub calibrated: bool,
     /// The block has been at rest for long.
     pub at_rest: bool,
+    /// ℓ of the rack now over ℓ at |θ| = α/2; 0 where nobody knows it.
+    pub lever: f32,
 }
 
 /// What was found, in the order of [`Sensor::ALL`].
@@ -206,7 +209,8 @@ impl Monitor {
         if good[0] && good[3] {
             let [uncalibrated, calibrated] = self.rate_tolerances;
             let tolerance = if context.calibrated { calibrated } else { uncalibrated };
-            state.agreement.step(&self.agreement, tolerance, rate, sample.encoder.counts);
+            let scale = self.counts_per_radian * context.lever;
+            state.agreement.step(&self.agreement, tolerance, rate, scale, sample.encoder.counts);
         } else {
             // What is missing must not look like a difference later.
             state.agreement = Agreement::default();

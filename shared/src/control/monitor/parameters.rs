@@ -30,8 +30,8 @@ pub struct SensorLimits {
 pub struct EncoderLimits {
     /// Longest time without a reading, s, as of the other sensors.
     pub stale_time: f32,
-    /// Counts per rad of the block, the mean of its lever times counts per metre of the rack; 0 where it is not to be compared with the
-    /// gyroscope. Magnitude up to 1e9.
+    /// Counts per rad of the block at |θ| = α/2: its lever there, ℓ R, times counts per metre of the rack. At any other θ the geometry says how
+    /// many. 0 where it is not to be compared with the gyroscope. Magnitude up to 1e9.
     pub counts_per_radian: f32,
     /// Largest distance of a count from θ = 0; at least 0, 0 where there is none.
     pub travel: i32,
@@ -67,7 +67,7 @@ pub struct MonitorParameters {
     pub count_tolerance: f32,
     /// Mean error of the calibrated gyroscope over a window, rad/s; at least 0. Default 0.02.
     pub rate_tolerance: f32,
-    /// Share of the movement by which they may differ, because the lever changes with rotation; 0 to 0.9. Default 0.25.
+    /// Share of the movement by which they may differ, because the lever is not known exactly; 0 to 0.9. Default 0.25.
     pub lever_tolerance: f32,
     /// By how much later than the other either may be, reading period and filters together, s; 0 to 1. Default 2 ms.
     pub sensor_delay: f32,
@@ -174,12 +174,12 @@ impl MonitorParameters {
             travel: if self.encoder.travel == 0 { u32::MAX } else { self.encoder.travel.unsigned_abs() },
             agreement: AgreementLimits {
                 period,
-                counts_per_radian: self.encoder.counts_per_radian,
                 slots,
                 counts: self.count_tolerance,
                 share: self.lever_tolerance,
                 delay: self.sensor_delay,
             },
+            counts_per_radian: self.encoder.counts_per_radian,
             quiet_ticks: slots[0].saturating_mul(SLOTS),
             rest_ticks: ticks(self.rest_contradiction_time, period),
             rest_tolerance: self.rest_tolerance,

@@ -19,6 +19,7 @@ const CONTEXT: Context<'_> = Context {
     calibration: &Calibration { gyroscope: 0.0, block: [0.0; 2], ground: [0.0; 2], encoder_zero: 0 },
     calibrated: true,
     at_rest: true,
+    lever: 1.0,
 };
 
 #[test]

@@ -47,6 +47,8 @@ pub struct SupervisorInput<'a> {
     pub standing: bool,
     /// θ, rad, and θ̇, rad/s, as last estimated.
     pub estimate: (f32, f32),
+    /// ℓ of the rack now over ℓ at |θ| = α/2; 0 where nobody knows it.
+    pub lever: f32,
     /// How late this tick came, s; 0 or less where it was in time.
     pub lateness: f32,
     /// Requests of an operator.

@@ -169,9 +169,14 @@ impl SupervisorState {
         self.phase
     }
 
-    /// Biases that the estimators subtract.
+    /// Biases that the estimators subtract, …
     pub fn calibration(&self) -> &Calibration {
         &self.calibration
+    }
+
+    /// … and whether they were measured.
+    pub fn calibrated(&self) -> bool {
+        self.calibrated
     }
 }
 
@@ -226,7 +231,7 @@ impl Supervisor {
             self.weigh_gravity(state, input);
         }
         let at_rest = state.motion.block_still >= self.quiet;
-        let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest };
+        let context = Context { calibration: &state.calibration, calibrated: state.calibrated, at_rest, lever: input.lever };
         let findings = self.monitor.step(&mut state.monitor, input.sample, &context);
         state.motion.step(&self.motion, input.sample, findings.good(), findings.shaking, &state.calibration);
         self.stand_in(state);

@@ -77,7 +77,6 @@ pub fn supervision(
             saturation_time: f64::from(default.saturation_time).max(1.5 * table.shock_s + 2.0 * period) as f32,
         }
     };
-    // The rack's travel per radian varies with θ; the mean over ±α serves.
     let block = &structure.block;
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap_or(0.0);
     let counts = lever * block.size() / encoder.resolution;
@@ -133,6 +132,8 @@ pub fn supervision(
 #[cfg(test)]
 mod tests {
     use super::super::LoopScene;
+    use super::super::disturbance::Disturbance;
+    use super::super::failing::{Failing, Injected, Part};
     use super::super::plant::Extremes;
     use super::*;
     use crate::interrupt::Interrupt;
@@ -141,10 +142,15 @@ mod tests {
 
     /// A loop over a pulse with `sensors`, tables of TOML.
     fn desk(sensors: &str) -> LoopScene {
+        desk_of(12.0, "engagement = 'rigid'", "amplitude_g = 0.4, frequency_hz = 1.3", sensors)
+    }
+
+    /// The same for α in degrees, with keys of the device and of the pulse.
+    fn desk_of(slenderness: f64, device: &str, pulse: &str, sensors: &str) -> LoopScene {
         let text = format!(
-            "block = {{ size_m = 2.0, slenderness_deg = 12.0 }}
-            device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid' }}]
-            ground = [{{ motion = 'sine', amplitude_g = 0.4, frequency_hz = 1.3 }}]
+            "block = {{ size_m = 2.0, slenderness_deg = {slenderness} }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {device} }}]
+            ground = [{{ motion = 'sine', {pulse} }}]
             [controller]
             sensors = {{ {sensors} }}"
         );
@@ -162,7 +168,15 @@ mod tests {
 
     /// Faults of a loop.
     fn faults(desk: &LoopScene, seed: u64) -> usize {
-        desk.task(0, seed, &Interrupt::default()).run(&mut Extremes::default(), &mut ()).unwrap().faults.len()
+        faults_with(desk, seed, &mut ())
+    }
+
+    /// The same with something that goes wrong.
+    fn faults_with(desk: &LoopScene, seed: u64, disturbance: &mut dyn Disturbance) -> usize {
+        let interrupt = Interrupt::default();
+        let task = desk.task(0, seed, &interrupt);
+        let mut driver = task.driver().unwrap();
+        task.run_with(&mut *driver, disturbance, &mut Extremes::default(), &mut ()).unwrap().faults.len()
     }
 
     #[test]
@@ -208,6 +222,23 @@ mod tests {
     fn a_slow_or_late_encoder_is_no_fault() {
         for encoder in ["rate_hz = 250", "rate_hz = 1000, latency_s = 0.01"] {
             assert_eq!(faults(&desk(&format!("suite = 'adis16470', encoder = {{ {encoder} }}")), 1), 0, "{encoder}");
+        }
+    }
+
+    /// Racks that travel half as far per radian at θ = 0 as at balance.
+    #[test]
+    fn a_lever_that_changes_over_a_swing_is_no_fault() {
+        for (slenderness, device, pulse) in [
+            (20.0, "mount = 'tying-point', mount_height_m = 0.2, pulley_ratio = 4.0", "amplitude_g = 0.5, frequency_hz = 1.0"),
+            (60.0, "mount = 'centre-of-mass'", "amplitude_g = 2.6, frequency_hz = 1.0"),
+        ] {
+            for sensors in ["suite = 'ideal'", "suite = 'adis16470'"] {
+                let desk = desk_of(slenderness, device, pulse, sensors);
+                assert_eq!(faults(&desk, 1), 0, "{device}, {sensors}");
+                for failing in [Failing::Stuck(Part::Encoder), Failing::Contradicts(Part::Encoder)] {
+                    assert!(faults_with(&desk, 1, &mut Injected::new(failing, 0.5)) > 0, "{device}, {sensors}: {failing}");
+                }
+            }
         }
     }
 }

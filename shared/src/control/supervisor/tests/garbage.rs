@@ -63,6 +63,7 @@ fn garbage_is_survived() {
                 wish: [bits & 4 == 0, bits & 8 == 0],
                 standing: false,
                 estimate: if spoilt { (value(&mut random), value(&mut random)) } else { (0.0, 0.0) },
+                lever: 1.0,
                 lateness: if spoilt { value(&mut random) } else { 0.0 },
                 requests: Requests { clear: bits & 16 == 0 },
                 coils: Default::default(),

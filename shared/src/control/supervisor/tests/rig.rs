@@ -183,6 +183,7 @@ impl Rig {
             wish: self.wish,
             standing: self.standing,
             estimate: (self.rotation + lost, self.velocity),
+            lever: 1.0,
             lateness: self.lateness,
             requests: self.requests,
             coils: self.coils,
