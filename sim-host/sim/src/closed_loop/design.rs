@@ -91,6 +91,7 @@ impl SensorDesign {
             delay(0.0, &encoder.sampling),
             delay(ground_accelerometer.bandwidth, &ground_accelerometer.sampling),
         ];
+        let block_delay = delay(block_accelerometer.bandwidth, &block_accelerometer.sampling);
         let noisy = |sensor: &Inertial| sensor.noise_density > 0.0 || sensor.resolution > 0.0;
         let tracking = if noisy(ground_accelerometer) { TRACKING } else { 0.0 };
         let instruments = Instruments::new(period, encoder.resolution / size, delays, tracking)?;
@@ -165,7 +166,7 @@ impl SensorDesign {
                 let row = |i: usize| [gains[(i, 0)] as f32, gains[(i, 1)] as f32, gains[(i, 2)] as f32];
                 Estimator::Kalman(Kalman {
                     gains: [row(0), row(1), row(2), row(3)],
-                    blank: blank(delays[0].max(delays[2]), noisy(gyroscope) || noisy(block_accelerometer)),
+                    blank: blank(delays[0].max(delays[2]).max(block_delay), noisy(gyroscope) || noisy(block_accelerometer)),
                     jump: jump(math::square_root(of_gyroscope)),
                     standing: standing(deviation(0), deviation(1)),
                     deviation: Deviation {
@@ -188,7 +189,7 @@ impl SensorDesign {
                 Estimator::Complementary(Complementary {
                     gains: [gains[0] as f32, gains[1] as f32],
                     smoothing: smoothing as f32,
-                    blank: blank(delays[2].max(delay(block_accelerometer.bandwidth, &block_accelerometer.sampling)), noisy),
+                    blank: blank(delays[2].max(block_delay), noisy),
                     standing: standing(rotation, velocity),
                     deviation: Deviation {
                         rotation: rotation as f32,
@@ -200,5 +201,34 @@ impl SensorDesign {
             }
         };
         Ok(SensorDesign { instruments, estimator })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sensor::preset::{SUITES, find};
+    use sprag_shared::structure::Restitution;
+    use sprag_shared::structure::block::Block;
+    use sprag_shared::structure::device::{Device, DeviceKind};
+
+    /// A shock of 1 ms is in a second-order low-pass of 20 Hz for its delay of √2/(2π 20 Hz) = 11.25 ms, and as long again until it has left it.
+    #[test]
+    fn no_estimator_believes_a_block_accelerometer_before_the_shock_has_left_its_low_pass() {
+        let device = Device { kind: DeviceKind::ClutchedPair, mass_ratio: 0.5, ..Device::NONE };
+        let structure =
+            Structure { device, ..Structure::new(Block::new(2.0, 0.2, 4.0 / 3.0).unwrap(), Restitution::Constant(0.85)) };
+        let suite = find(SUITES, "adis16470").unwrap();
+        let sampling = Sampling { rate: 0.0, latency: 0.0, ..suite.block_accelerometer.sampling };
+        let slow = Suite { block_accelerometer: Inertial { bandwidth: 20.0, sampling, ..suite.block_accelerometer }, ..suite };
+        for name in [EstimatorName::Kalman, EstimatorName::Complementary] {
+            let blank = |suite: &Suite| match SensorDesign::new(&structure, suite, name, 5e-4, 1e-3, 0.02).unwrap().estimator {
+                Estimator::Kalman(Kalman { blank, .. }) | Estimator::Complementary(Complementary { blank, .. }) => blank,
+                Estimator::ModelAided(_) => 0,
+            };
+            // Ticks of 0.5 ms.
+            assert_eq!(blank(&slow), 48, "{name:?}");
+            assert!(blank(&suite) < 10, "{name:?}");
+        }
     }
 }
