@@ -43,12 +43,18 @@ pub struct SensorDesign {
     pub estimator: Estimator,
 }
 
-/// Delay of a sensor from the motion to the reading that a tick sees, s: its low-pass (√2/ω_c for Butterworth's of second order), half
+/// What delays a sensor from the motion to the reading that a tick sees, s: its low-pass (√2/ω_c for Butterworth's of second order), half
 /// of the time between readings, and its latency.
-pub(super) fn delay(bandwidth: f64, sampling: &Sampling) -> f64 {
+pub(crate) fn delays(bandwidth: f64, sampling: &Sampling) -> [f64; 3] {
     let filter = if bandwidth > 0.0 { std::f64::consts::SQRT_2 / (std::f64::consts::TAU * bandwidth) } else { 0.0 };
     let held = if sampling.rate > 0.0 && !sampling.synchronous { 0.5 / sampling.rate } else { 0.0 };
-    filter + held + sampling.latency
+    [filter, held, sampling.latency]
+}
+
+/// All [`delays`] together, s.
+pub(super) fn delay(bandwidth: f64, sampling: &Sampling) -> f64 {
+    let [filter, held, latency] = delays(bandwidth, sampling);
+    filter + held + latency
 }
 
 /// Variance of white readings, one a `period` (s), with the density of the sensor's noise: N²/(2T), and its quantisation.

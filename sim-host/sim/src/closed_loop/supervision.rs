@@ -30,6 +30,9 @@ const INDEPENDENT: f64 = 0.25;
 /// Longest time for which a monitor may wait, s.
 const LONGEST_WAIT: f32 = 10.0;
 
+/// Largest allowance of a monitor for late readings, s.
+const LATEST: f32 = 1.0;
+
 /// Time between readings of `sensor` that its noise makes independent, s; new ones are `between` (s) apart.
 fn independent(sensor: &Inertial, between: f64) -> f64 {
     if sensor.bandwidth > 0.0 && between * sensor.bandwidth < FOLLOWING { INDEPENDENT / sensor.bandwidth } else { between }
@@ -102,7 +105,7 @@ pub fn supervision(
             slow_contradiction_time: larger(monitor.slow_contradiction_time, 64.0 * period),
             rest_tolerance: larger(monitor.rest_tolerance, PEAK * noise(block_accelerometer).max(noise(ground_accelerometer))),
             rate_tolerance: larger(monitor.rate_tolerance, PEAK * noise(gyroscope)),
-            sensor_delay: larger(monitor.sensor_delay, 2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay),
+            sensor_delay: larger(monitor.sensor_delay, 2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay).min(LATEST),
             moving_rate: larger(monitor.moving_rate, PEAK * noise(gyroscope)),
             gravity: GRAVITY as f32,
             ..monitor
@@ -216,6 +219,13 @@ mod tests {
             close(slow.encoder.stale_time, 0.014);
             close(slow.sensor_delay, 0.001 + 0.004 + 0.004);
         }
+        // The slowest and latest that a scene may have.
+        assert!(
+            desk("encoder = { rate_hz = 1, synchronous = true, latency_s = 0.1 }")
+                .task(0, 1, &Interrupt::default())
+                .driver()
+                .is_ok()
+        );
     }
 
     #[test]

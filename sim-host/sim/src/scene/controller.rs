@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use super::sensors::SensorsTable;
+use crate::closed_loop::design::delays;
 use crate::sensor::{MOST_UNDER_WAY, Sampling, Suite};
 
 /// Estimators.
@@ -252,6 +253,7 @@ impl ControllerTable {
         }
         let suite = self.sensors.resolve(&|name: &str| key(&format!("controller.{name}")))?;
         self.check_continuous(&suite, key)?;
+        check_delays(&suite, key)?;
         Ok(suite)
     }
 
@@ -274,6 +276,42 @@ impl ControllerTable {
         }
         Ok(())
     }
+}
+
+/// Longest delay of a sensor from the motion to a reading that estimators carry over, s.
+const MOST_DELAY: f64 = 0.1;
+/// What is as good as none of it, s.
+const NOTHING: f64 = 1e-6;
+/// Of sums and quotients, in the last digit that a message shows.
+const ROUNDING: f64 = 1e-6;
+
+/// Refuses a sensor whose readings are later, by the key that has the largest share in it.
+fn check_delays(suite: &Suite, key: &KeyOf<'_>) -> Result<(), SceneError> {
+    let Suite { gyroscope, ground_accelerometer, encoder, .. } = suite;
+    for (name, bandwidth, sampling) in [
+        ("gyroscope", gyroscope.bandwidth, &gyroscope.sampling),
+        ("ground_accelerometer", ground_accelerometer.bandwidth, &ground_accelerometer.sampling),
+        ("encoder", 0.0, &encoder.sampling),
+    ] {
+        let [filter, held, latency] = delays(bandwidth, sampling);
+        let whole = filter + held + latency;
+        if whole > MOST_DELAY {
+            let shares = [("bandwidth_hz", bandwidth, filter), ("rate_hz", sampling.rate, held), ("latency_s", latency, latency)];
+            let (part, value, share) = shares.into_iter().max_by(|a, b| a.2.total_cmp(&b.2)).unwrap_or(shares[0]);
+            // What the others leave; where that is nothing, they are refused next.
+            let left = MOST_DELAY - (whole - share);
+            let left = if left > NOTHING { left } else { MOST_DELAY };
+            let bound = if part == "latency_s" {
+                format!("at most {} s", (1e6 * left + ROUNDING).floor() / 1e6)
+            } else {
+                format!("at least {} Hz", (1e3 * value * share / left - ROUNDING).ceil() / 1e3)
+            };
+            let range =
+                format!("{bound}: low-pass, half of the time between readings and latency may delay by {MOST_DELAY} s in all");
+            return Err(key(&format!("controller.sensors.{name}.{part}")).range(value, &range));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -312,5 +350,30 @@ mod tests {
                 )
             );
         }
+    }
+
+    /// 1/(2 · 0.1 s) = 5 Hz of readings, or √2/(2π · 0.1 s) = 2.251 Hz of a low-pass, where nothing else delays.
+    #[test]
+    fn a_sensor_later_than_an_estimator_carries_over_is_refused_by_what_delays_it_most() {
+        let why = ": low-pass, half of the time between readings and latency may delay by 0.1 s in all";
+        for (sensor, keys, key, value, bound) in [
+            ("gyroscope", "rate_hz = 4, synchronous = false", "rate_hz", "4", "at least 5 Hz"),
+            ("gyroscope", "bandwidth_hz = 1", "bandwidth_hz", "1", "at least 2.251 Hz"),
+            ("ground_accelerometer", "bandwidth_hz = 2, latency_s = 0.002", "bandwidth_hz", "2", "at least 2.297 Hz"),
+            ("encoder", "rate_hz = 8, synchronous = false, latency_s = 0.09", "latency_s", "0.09", "at most 0.0375 s"),
+            ("encoder", "rate_hz = 1, synchronous = false, latency_s = 0.1", "rate_hz", "1", "at least 5 Hz"),
+        ] {
+            let table = format!("[sensors]\n{sensor} = {{ {keys} }}");
+            let expected = format!("scene: controller.sensors.{sensor}.{key} is {value}, but must be {bound}{why}");
+            assert_eq!(refused(&table).unwrap(), expected);
+        }
+        for fits in [
+            "rate_hz = 5, synchronous = false",
+            "rate_hz = 1, latency_s = 0.1",
+            "rate_hz = 8, synchronous = false, latency_s = 0.0375",
+        ] {
+            assert_eq!(refused(&format!("[sensors]\nencoder = {{ {fits} }}")), None, "{fits}");
+        }
+        assert_eq!(refused("[sensors]\nblock_accelerometer = { bandwidth_hz = 1 }"), None);
     }
 }
