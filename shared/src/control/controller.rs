@@ -298,7 +298,7 @@ impl<L: Law> Controller<L> {
             } else {
                 *estimate
             };
-            state.signs = before.after(&ahead, self.bands);
+            state.signs = before.after(estimate, &ahead, self.bands);
             let wish = self.wish(state, estimate, &ahead, engaged);
             (wish, state.turns.take(model, wish, state.signs.velocity, &ahead))
         };

@@ -5,6 +5,7 @@ use sprag_shared::math;
 use sprag_shared::motion::state::Phase;
 
 use super::LoopScene;
+use super::decisions::Decisions;
 use super::plant::Extremes;
 use super::run::Tick;
 use crate::interrupt::Interrupt;
@@ -192,4 +193,18 @@ fn the_law_on_the_true_motion_knows_how_the_ground_goes_on() {
         }
     }
     assert!(seen[0] > 1000 && seen[1] > 100, "{seen:?}");
+}
+
+/// Such noise passes its own standard deviation some hundred times a second.
+#[test]
+fn a_table_of_signs_does_not_follow_the_noise_of_a_still_ground() {
+    let text = "block = { size_m = 2.0, slenderness_deg = 10.0, restitution = 0.9 }
+        device = [{ kind = 'clutched-pair', mass_ratio = 0.5 }]
+        ground = [{ motion = 'sine', amplitude_g = 0.25, frequency_hz = 1.0 }]
+        controller = { law = 'sign-table', sensors.suite = 'adis16470' }";
+    let desk = LoopScene::new(Scene::parse_with(text, "scene", &[]).unwrap()).unwrap();
+    let (.., looped) = desk.task(0, 1, &Interrupt::default()).answered::<Decisions>().unwrap();
+    let report = looped.ticks.report();
+    assert!(report.ideal_switches > 50 && report.switches < 2 * report.ideal_switches, "{report:?}");
+    assert!(report.wrong_share < 0.05, "{report:?}");
 }
