@@ -66,13 +66,15 @@ impl Run for HilArguments {
         let mut folder = self.output.folder_at(&self.scene.scene, "hil", &self.accuracy)?;
         let interrupt = context.interrupt;
         let (desk, subject, hosts) = self.accuracy.run(context, |change| on_host(self, change, &mut folder, interrupt))?;
-        let warnings = context.warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)));
+        let mut warnings = context.warned(desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records)));
         let runs: Vec<DeviceRun> = desk
             .pairs
             .iter()
             .zip(hosts)
             .map(|(&index, host)| one(self, &desk, index, host, interrupt))
             .collect::<anyhow::Result<_>>()?;
+        let of_loop = |run: &DeviceRun| run.report.summary.warning(&desk.scene.origin, desk.controller.prelude_s);
+        warnings.extend(context.warned(runs.iter().filter_map(of_loop)));
         let mut report = Report::new("hil", &folder, &self.output)?;
         let (mut reports, mut summaries, mut ticks) = (Vec::new(), Vec::new(), Vec::new());
         for (number, run) in runs.into_iter().enumerate() {
