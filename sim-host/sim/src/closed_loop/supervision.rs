@@ -7,7 +7,7 @@ use sprag_shared::control::supervisor::{Parameters, SafeState};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::GRAVITY;
 
-use super::design::{SensorDesign, delay};
+use super::design::{SensorDesign, delay, delays};
 use crate::scene::controller::{ControllerTable, SafeStateName};
 use crate::sensor::noise::output_deviation;
 use crate::sensor::{Inertial, Sampling, Suite};
@@ -26,6 +26,9 @@ const FOLLOWING: f64 = 0.09;
 /// at 2 kHz, repeats a reading for 1.9/bandwidth once in 1e7 readings, and for some 2.5/bandwidth once in 1e9; 17 independent readings take
 /// 4.3/bandwidth.
 const INDEPENDENT: f64 = 0.25;
+
+/// Delays of a second-order low-pass in which a shock goes through it: what comes out, e^(−t/delay) sin(t/delay), is back at zero.
+const RINGING: f64 = std::f64::consts::PI;
 
 /// Longest time for which a monitor may wait, s.
 const LONGEST_WAIT: f32 = 10.0;
@@ -84,6 +87,8 @@ pub fn supervision(
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap_or(0.0);
     let counts = lever * block.size() / encoder.resolution;
     let larger = |default: f32, value: f64| f64::from(default).max(value) as f32;
+    let [ringing, ..] = delays(block_accelerometer.bandwidth, &block_accelerometer.sampling);
+    let shaken = 1.5 * table.shock_s + 2.0 * period + RINGING * ringing;
     let gyroscope_delay = delay(gyroscope.bandwidth, &gyroscope.sampling);
     // 0 of one that is read at once; a reading is held for as long, whoever keeps the clock.
     let encoder_delay = delay(0.0, &Sampling { synchronous: false, ..encoder.sampling });
@@ -91,7 +96,10 @@ pub fn supervision(
         period: period as f32,
         monitor: MonitorParameters {
             gyroscope: limits(gyroscope, monitor.gyroscope),
-            block_accelerometer: limits(block_accelerometer, monitor.block_accelerometer),
+            block_accelerometer: SensorLimits {
+                saturation_time: limits(block_accelerometer, monitor.block_accelerometer).saturation_time.max(shaken as f32),
+                ..limits(block_accelerometer, monitor.block_accelerometer)
+            },
             ground_accelerometer: SensorLimits {
                 stuck_time_moving: limits(ground_accelerometer, monitor.ground_accelerometer).stuck_time,
                 ..limits(ground_accelerometer, monitor.ground_accelerometer)
@@ -145,17 +153,18 @@ mod tests {
 
     /// A loop over a pulse with `sensors`, tables of TOML.
     fn desk(sensors: &str) -> LoopScene {
-        desk_of(12.0, "engagement = 'rigid'", "amplitude_g = 0.4, frequency_hz = 1.3", sensors)
+        let block = "slenderness_deg = 12.0";
+        desk_of(block, "engagement = 'rigid'", "amplitude_g = 0.4, frequency_hz = 1.3", &format!("sensors = {{ {sensors} }}"))
     }
 
-    /// The same for α in degrees, with keys of the device and of the pulse.
-    fn desk_of(slenderness: f64, device: &str, pulse: &str, sensors: &str) -> LoopScene {
+    /// The same with keys of block, device, pulse and controller.
+    fn desk_of(block: &str, device: &str, pulse: &str, controller: &str) -> LoopScene {
         let text = format!(
-            "block = {{ size_m = 2.0, slenderness_deg = {slenderness} }}
+            "block = {{ size_m = 2.0, {block} }}
             device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {device} }}]
             ground = [{{ motion = 'sine', {pulse} }}]
             [controller]
-            sensors = {{ {sensors} }}"
+            {controller}"
         );
         LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
     }
@@ -238,17 +247,34 @@ mod tests {
     /// Racks that travel half as far per radian at θ = 0 as at balance.
     #[test]
     fn a_lever_that_changes_over_a_swing_is_no_fault() {
-        for (slenderness, device, pulse) in [
-            (20.0, "mount = 'tying-point', mount_height_m = 0.2, pulley_ratio = 4.0", "amplitude_g = 0.5, frequency_hz = 1.0"),
-            (60.0, "mount = 'centre-of-mass'", "amplitude_g = 2.6, frequency_hz = 1.0"),
+        for (block, device, pulse) in [
+            (
+                "slenderness_deg = 20.0",
+                "mount = 'tying-point', mount_height_m = 0.2, pulley_ratio = 4.0",
+                "amplitude_g = 0.5, frequency_hz = 1.0",
+            ),
+            ("slenderness_deg = 60.0", "mount = 'centre-of-mass'", "amplitude_g = 2.6, frequency_hz = 1.0"),
         ] {
             for sensors in ["suite = 'ideal'", "suite = 'adis16470'"] {
-                let desk = desk_of(slenderness, device, pulse, sensors);
+                let desk = desk_of(block, device, pulse, &format!("sensors = {{ {sensors} }}"));
                 assert_eq!(faults(&desk, 1), 0, "{device}, {sensors}");
                 for failing in [Failing::Stuck(Part::Encoder), Failing::Contradicts(Part::Encoder)] {
                     assert!(faults_with(&desk, 1, &mut Injected::new(failing, 0.5)) > 0, "{device}, {sensors}: {failing}");
                 }
             }
         }
+    }
+
+    /// A shock rings in a low-pass of 94 Hz for several milliseconds.
+    #[test]
+    fn an_impact_beyond_full_scale_behind_a_slow_low_pass_is_no_fault() {
+        let block = "slenderness_deg = 20.0, restitution = 0.5";
+        for estimator in ["kalman", "complementary"] {
+            let controller = format!("estimator = '{estimator}'\nsensors = {{ suite = 'mpu-6050' }}");
+            let desk = desk_of(block, "mount = 'centre-of-mass'", "amplitude_g = 0.8, frequency_hz = 1.0", &controller);
+            assert_eq!(faults(&desk, 1), 0, "{estimator}");
+        }
+        // A fast part has the default.
+        assert!((monitor("suite = 'adis16470'").block_accelerometer.saturation_time - 0.004).abs() < 1e-6);
     }
 }
