@@ -283,8 +283,8 @@ impl<'a> Plant<'a> {
                     let [horizontal, vertical, _] = pieces.accelerations(offset, instant - self.time);
                     let (side, motion) = self.path.at(instant);
                     self.places.follow(&mut self.posture, &self.machine, side, motion.rotation);
-                    let acceleration = motion.acceleration + self.shocks.at(instant);
-                    see(instant, &self.places.truth(&self.posture, (motion.velocity, acceleration), [horizontal, vertical]));
+                    let (moving, shock) = ((motion.velocity, motion.acceleration), self.shocks.at(instant));
+                    see(instant, &self.places.truth(&self.posture, moving, shock, [horizontal, vertical]));
                 }
             }
             self.time = end;
@@ -323,8 +323,8 @@ impl<'a> Plant<'a> {
     pub fn truth(&mut self) -> Truth {
         self.take_posture();
         let acceleration = self.machine.acceleration_now(&self.state, &self.posture.configuration);
-        let moving = (self.state.motion.velocity, acceleration + self.shocks.at(self.time));
-        self.places.truth(&self.posture, moving, self.ground())
+        let moving = (self.state.motion.velocity, acceleration);
+        self.places.truth(&self.posture, moving, self.shocks.at(self.time), self.ground())
     }
 }
 

@@ -74,17 +74,19 @@ impl Places {
         *posture = self.posture(machine, side, rotation);
     }
 
-    /// Truth of a block in `posture` with θ̇ = `velocity` and θ̈ = `acceleration`, on ground that accelerates by `ground` (in g, horizontally
-    /// and vertically).
+    /// Truth of a block in `posture` with θ̇ = `velocity` and θ̈ = `acceleration` and a `shock`, on ground that accelerates by `ground` (in g,
+    /// horizontally and vertically).
     ///
     /// With c = cos δ and s = sin δ (1 and δ for the slender block) the centre of mass has, relative to the ground, the acceleration
-    /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²); a specific force is that minus gravity, turned into the axes of the block.
-    pub fn truth(&self, posture: &Posture, (velocity, acceleration): (f64, f64), ground: [f64; 2]) -> Truth {
+    /// R (c θ̈ + s θ̇², s θ̈ − c θ̇²), and in a shock R (c `turning`, |s| `lifting`) more; a specific force is that minus gravity, turned into the
+    /// axes of the block.
+    pub fn truth(&self, posture: &Posture, (velocity, acceleration): (f64, f64), shock: Shock, ground: [f64; 2]) -> Truth {
         let (c, s) = posture.arm;
         let square = velocity * velocity;
         let ground = [ground[0] * GRAVITY, GRAVITY * (1.0 + ground[1])];
-        let horizontal = ground[0] + self.size * (c * acceleration + s * square);
-        let vertical = ground[1] + self.size * (s * acceleration - c * square);
+        let horizontal = ground[0] + self.size * (c * (acceleration + shock.turning) + s * square);
+        let lifting = posture.side.times(s) * shock.lifting;
+        let vertical = ground[1] + self.size * (s * acceleration - c * square + lifting);
         let (sine, cosine) = posture.tilt;
         Truth {
             rate: velocity,
@@ -95,6 +97,24 @@ impl Places {
     }
 }
 
+/// What an impact or a jolt adds to the acceleration of the centre of mass, rad/s²: R c `turning` horizontally, R |s| `lifting` vertically; or
+/// the jumps of velocity that they come to, rad/s.
+///
+/// The vertical velocity is R s θ̇, and s changes its sign with the toe: at an impact, after which θ̇ goes on in one direction on the other
+/// toe, it jumps by R |s| (1 + η) |θ̇| upwards, while θ̇ jumps by (1 − η) |θ̇| alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shock {
+    turning: f64,
+    lifting: f64,
+}
+
+impl Shock {
+    /// From θ̇ = `before` on the toe of `from` to `after` on that of `to`; where these are two, θ is 0.
+    fn between((from, before): (Sign, f64), (to, after): (Sign, f64)) -> Shock {
+        Shock { turning: after - before, lifting: to.times(after) - from.times(before) }
+    }
+}
+
 /// What sensors see of a jump of θ̇ at an impact or a jolt: a half-sine of acceleration that makes up the jump, because no contact is
 /// without a duration. The motion itself keeps the jump.
 #[derive(Clone, Copy, Debug)]
@@ -102,10 +122,10 @@ pub struct Shocks {
     /// s; 0 is no shock at all.
     pub duration: f64,
     /// Start and jump of the last few.
-    recent: [(f64, f64); 4],
+    recent: [(f64, Shock); 4],
     next: usize,
-    /// θ̇ at the end of the last stretch.
-    velocity: Option<f64>,
+    /// Side and θ̇ at the end of the last stretch.
+    last: Option<(Sign, f64)>,
     /// Start of the piece that is being followed, s.
     pub origin: f64,
 }
@@ -113,13 +133,13 @@ pub struct Shocks {
 impl Shocks {
     /// Of contacts that last for `duration` (s).
     pub fn new(duration: f64) -> Shocks {
-        Shocks { duration, recent: [(f64::NEG_INFINITY, 0.0); 4], next: 0, velocity: None, origin: 0.0 }
+        Shocks { duration, recent: [(f64::NEG_INFINITY, Shock::default()); 4], next: 0, last: None, origin: 0.0 }
     }
 
-    /// rad/s² at `time` (s).
+    /// The accelerations at `time` (s).
     #[inline]
-    pub fn at(&self, time: f64) -> f64 {
-        if self.over_at(time) { 0.0 } else { self.sum_at(time) }
+    pub fn at(&self, time: f64) -> Shock {
+        if self.over_at(time) { Shock::default() } else { self.sum_at(time) }
     }
 
     /// None lasts beyond `time` (s).
@@ -129,35 +149,37 @@ impl Shocks {
         self.duration <= 0.0 || time - self.recent[(self.next + 3) % 4].0 >= self.duration
     }
 
-    fn sum_at(&self, time: f64) -> f64 {
-        let part = |&(start, jump): &(f64, f64)| {
+    fn sum_at(&self, time: f64) -> Shock {
+        let mut sum = Shock::default();
+        for &(start, Shock { turning, lifting }) in &self.recent {
             let phase = (time - start) / self.duration;
-            // ∫ π/2 sin(πφ) dφ over a contact is 1.
             if (0.0..1.0).contains(&phase) {
-                jump / self.duration * std::f64::consts::FRAC_PI_2 * math::sin(std::f64::consts::PI * phase)
-            } else {
-                0.0
+                // ∫ π/2 sin(πφ) dφ over a contact is 1.
+                let pulse =
+                    |jump: f64| jump / self.duration * std::f64::consts::FRAC_PI_2 * math::sin(std::f64::consts::PI * phase);
+                sum = Shock { turning: sum.turning + pulse(turning), lifting: sum.lifting + pulse(lifting) };
             }
-        };
-        self.recent.iter().map(part).sum()
+        }
+        sum
     }
 }
 
 impl Observer<f64> for Shocks {
     fn device_interval(&mut self, _output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        if let Some(before) = self.velocity {
-            let jump = interval.first.velocity - before;
-            if jump.abs() > 1e-9 {
+        if let Some(before) = self.last {
+            let jump = Shock::between(before, (interval.side, interval.first.velocity));
+            // Never the smaller of the two.
+            if jump.lifting.abs() > 1e-9 {
                 self.recent[self.next % 4] = (self.origin + interval.start, jump);
                 self.next += 1;
             }
         }
-        self.velocity = Some(interval.last.velocity);
+        self.last = Some((interval.side, interval.last.velocity));
     }
 
     fn event(&mut self, event: Event, _time: f64, _state: &BlockState<f64>) {
         if matches!(event, Event::Rest | Event::Uplift | Event::Overturned) {
-            self.velocity = None;
+            self.last = None;
         }
     }
 }
