@@ -35,7 +35,8 @@ export class Store {
   private isPlaying = false;
   private factor = 1;
   private failure = "";
-  private remark = "";
+  /** Whether that failure came before the scene that is run. */
+  private isOld = false;
   private restarts: boolean | null = null;
   private wanted: Source | null = null;
   private isWorking = false;
@@ -193,19 +194,14 @@ export class Store {
     return () => set.delete(changed);
   }
 
-  /** Shows one line about what went wrong; an `AbortError` is no failure. */
+  /** Shows one line about what went wrong, until a scene that comes later has been run; an `AbortError` is no failure. */
   fail(problem: unknown): void {
     if (problem instanceof DOMException && problem.name === "AbortError") {
       return;
     }
     this.failure = problem instanceof Error ? problem.message : String(problem);
+    this.isOld = false;
     this.notify("message");
-  }
-
-  /** Shows a line that neither the success nor the failure of the run that is under way takes away. */
-  failLater(line: string): void {
-    this.remark = line;
-    this.fail(line);
   }
 
   /** Takes the line of `fail` away. */
@@ -263,6 +259,7 @@ export class Store {
   /** Runs `source`; of those that come meanwhile only the last. */
   private want(source: Source): void {
     this.wanted = source;
+    this.isOld = true;
     if (!this.isWorking) {
       void this.runWanted();
     }
@@ -279,17 +276,15 @@ export class Store {
         [this.latestRun, this.ran] = [run, source];
         this.endS = endOf(run);
         this.cursorS = Math.min(this.cursorS, this.durationS);
-        if (this.wanted === null && this.remark === "") {
+        if (this.isOld && this.wanted === null) {
           this.dismiss();
         }
-        this.remark = "";
         this.notify("run");
         this.begin();
       } catch (problem) {
-        if (this.wanted === null && this.remark === "") {
+        if (this.wanted === null) {
           this.fail(problem);
         }
-        this.remark = "";
       }
     }
     this.isWorking = false;

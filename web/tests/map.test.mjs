@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { colours, digest, filled, panels, said, sections } from "./views.mjs";
-import { EXAMPLES, anotherDigest, choose, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.views.map;
 const OVERTURNED = ["54 20 38 255", "213 94 0 255"];
@@ -211,6 +211,29 @@ test("two axes that are changed at once are both changed", async (t) => {
     }
   });
   await until("a map of 30 x 30", () => map.getByText(/^900 cells a device, in/).count());
+});
+
+test("a map that cannot be had is said, without the panels of another, and comes when it is mended", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  await filled(page);
+  const { map } = sections(page);
+  const text = await toml(page).inputValue();
+  const wrong = text.replace("size_m = 2.0", "size_m = 2.5").replace("from = 0.5", "from = -0.5");
+  await toml(page).fill(wrong);
+  await anotherDigest(page, first);
+  const isSaid = async () => /frequency_hz/.test(await alert(page).innerText());
+  await until("a line", isSaid);
+  await until("no panel", async () => (await panels(page).count()) === 0);
+  // Longer than the run that goes well takes.
+  await page.waitForTimeout(500);
+  assert.ok(await isSaid());
+  await alert(page).getByRole("button", { name: texts.page.dismiss }).click();
+  await map.getByRole("button", { name: words.fill, exact: true }).click();
+  await until("the line again", isSaid);
+  await toml(page).fill(text);
+  await filled(page);
+  await until("no line", async () => (await alert(page).innerText()).trim() === "");
 });
 
 test("a map is stopped, filled again, and dropped for another scene", async (t) => {

@@ -137,6 +137,31 @@ test("a control writes the key that the scene has, and a map over a lost key goe
   assert.ok(!groundSettings(about, [{ motion: "cosine", amplitude_ratio: 3 }]).includes("map="));
 });
 
+test("the success of a run takes away failures that were there before its scene, and no others", async () => {
+  globalThis.matchMedia = () => ({ matches: true });
+  const { Store } = await load("store");
+  const runs = [];
+  const store = new Store({ simulate: () => new Promise((succeed) => runs.push(succeed)) });
+  const begin = (text) => store.setSource({ text, records: [] });
+  const succeed = async () => {
+    runs.shift()({ responses: [] });
+    await new Promise(setImmediate);
+  };
+  begin("first");
+  store.fail("its map");
+  await succeed();
+  assert.equal(store.message, "its map");
+  begin("second");
+  await succeed();
+  assert.equal(store.message, "");
+  begin("third");
+  begin("fourth");
+  store.fail("its map");
+  await succeed();
+  await succeed();
+  assert.deepEqual([store.message, runs.length], ["its map", 0]);
+});
+
 test("values are written as TOML in one line", async () => {
   const { inline } = await load("controls/draft");
   assert.equal(

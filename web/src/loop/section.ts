@@ -90,7 +90,9 @@ class LoopSection {
         await this.run();
       }
     } catch (problem) {
-      this.store.fail(problem);
+      if (source === this.store.played) {
+        this.store.fail(problem);
+      }
     }
   }
 

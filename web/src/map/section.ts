@@ -104,7 +104,9 @@ class MapSection {
       this.form.show(about.map ?? suggestedPair(keys), keys);
       await this.renew(about);
     } catch (problem) {
-      this.store.fail(problem);
+      if (number === this.latest) {
+        this.store.fail(problem);
+      }
     }
   }
 
@@ -121,7 +123,17 @@ class MapSection {
         this.place.replaceChildren();
       } else {
         // The panels before stay until there are others, so that nothing jumps.
-        const filling = await Filling.of(this.engine, source, about.map, about.resolved);
+        let filling: Filling;
+        try {
+          filling = await Filling.of(this.engine, source, about.map, about.resolved);
+        } catch (problem) {
+          if (identity === this.identity) {
+            this.place.replaceChildren();
+            this.showProgress();
+            this.store.fail(problem);
+          }
+          return;
+        }
         if (identity !== this.identity) {
           return;
         }
@@ -170,7 +182,7 @@ class MapSection {
     } else if (about?.map === null && this.form.shown !== null) {
       this.inSight = true;
       this.setAxes(this.form.shown);
-    } else if (filling !== null && about !== null) {
+    } else if (about !== null) {
       this.inSight = true;
       this.filling = null;
       void this.renew(about);

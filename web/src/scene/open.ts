@@ -61,7 +61,7 @@ async function read(store: Store, fragment: string): Promise<void> {
   const source = text === null ? { text: startText, records: [] } : await withRecords(store, text);
   store.open(source);
   if (text === null) {
-    store.failLater(texts.page.scene.broken);
+    store.fail(texts.page.scene.broken);
   }
 }
 
