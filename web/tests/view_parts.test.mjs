@@ -12,6 +12,7 @@ const { Span, tickText } = await load("map/ticks");
 const { bandColour, bandLimits, bandOf, OUTCOME_COLOURS, LIGHT_TO_DARK } = await load("map/classes");
 const { isAxis, mapIdentity, mapSettings, suggestedPair } = await load("map/axis");
 const { mapCsv } = await load("map/table");
+const { fillMap } = await load("pool/fill_map");
 const { resampled } = await load("loop/series");
 const { stretches } = await load("stretches");
 const { errorWords } = await load("trust/error_words");
@@ -52,6 +53,27 @@ test("a coarse cell stands for its neighbours until they come, in whatever order
     assert.equal(field.outcome[cell], truth(cell));
   }
   assert.equal(field.overturned, Array.from(field.outcome).filter((outcome) => outcome >= 2).length);
+});
+
+test("a map of which a part fails asks for no more parts", async () => {
+  const axis = new Float64Array(256);
+  let asked = 0;
+  const work = async () => {
+    asked += 1;
+    const number = asked;
+    await new Promise(setImmediate);
+    if (number === 3) {
+      throw new Error("part 3");
+    }
+  };
+  const map = { devices: ["a", "b"], x: axis, y: axis };
+  await assert.rejects(fillMap(map, work, 4, new AbortController().signal), /part 3/);
+  const before = asked;
+  // The parts that were under way end.
+  for (let turn = 0; turn < 20; turn += 1) {
+    await new Promise(setImmediate);
+  }
+  assert.equal(asked, before);
 });
 
 test("ticks are round, inside, at their values, and few", () => {

@@ -25,7 +25,7 @@ export function level(columns: number, rows: number, stride: number): number[] {
   return cells;
 }
 
-/** Works out all cells of a map by `work`, so many parts at once; `signal` ends it. */
+/** Works out all cells of a map by `work`, so many parts at once; `signal` ends it, and so does the first part that fails. */
 export async function fillMap(
   map: MapAbout,
   work: (device: number, cells: Uint32Array) => Promise<void>,
@@ -44,7 +44,12 @@ export async function fillMap(
           const part = Uint32Array.from(cells.slice(next, next + size));
           next += part.length;
           const begun = performance.now();
-          await work(device, part);
+          try {
+            await work(device, part);
+          } catch (problem) {
+            next = cells.length;
+            throw problem;
+          }
           const took = Math.max(performance.now() - begun, 1);
           // Parts wait for each other, so that this is at most what it takes; lanes are full in multiples of 64.
           const better = Math.round((part.length * PART_MS) / took / FIRST) * FIRST;
