@@ -10,7 +10,8 @@ const load = async (name) =>
 const { Field, UNKNOWN } = await load("map/field");
 const { Span, tickText } = await load("map/ticks");
 const { bandColour, bandLimits, bandOf, OUTCOME_COLOURS, LIGHT_TO_DARK } = await load("map/classes");
-const { isAxis, mapIdentity, mapSettings, suggestedPair } = await load("map/axis");
+const { isAxis, mapIdentity, suggestedPair } = await load("map/axis");
+const { Filling } = await load("map/filling");
 const { mapCsv } = await load("map/table");
 const { fillMap } = await load("pool/fill_map");
 const { resampled } = await load("loop/series");
@@ -144,11 +145,15 @@ test("a map is the same for every scene that is a point of it, and no other", ()
   assert.notEqual(shaken(3, own), identity(3, 3, 0.85));
   assert.equal(shaken(3, own), shaken(5, own));
   assert.notEqual(shaken(3, own), shaken(3, other), "two files of one name");
-  assert.deepEqual(mapSettings(axes, scene(3, 3, 0.85)), [
-    'map.x={ key = "ground.0.frequency_ratio", from = 0.2, to = 8, cells = 64, scale = "linear" }',
-    'map.y={ key = "ground.0.amplitude_ratio", from = 1, to = 10, cells = 64, scale = "linear" }',
-    'map.overturned_at="no-return"',
-  ]);
+});
+
+test("a cell that is taken keeps the whole map of its scene", async () => {
+  const x = { key: "controller.latency_s", from: 0, to: 0.05, cells: 16, scale: "linear" };
+  const engine = { mapAbout: async () => ({ devices: [], x: [], y: [] }) };
+  const resolved = { map: { x, overturned_at: "slenderness", laws: ["resisting", "look-ahead"] } };
+  const { setting } = await Filling.of(engine, { text: "", records: [] }, { x, y: null }, resolved);
+  const axis = '{ key = "controller.latency_s", from = 0, to = 0.05, cells = 16, scale = "linear" }';
+  assert.equal(setting, `map={ x = ${axis}, overturned_at = "slenderness", laws = ["resisting", "look-ahead"] }`);
 });
 
 test("axes are suggested of what the scene sets, and wrong ones refused", () => {

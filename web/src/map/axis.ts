@@ -57,13 +57,6 @@ export function axisToml(axis: Axis): string {
   return `{ key = "${key}", from = ${from}, to = ${to}, cells = ${cells}, scale = "${scale}" }`;
 }
 
-/** `[map]` with these axes, and else as in a resolved scene, as settings. */
-export function mapSettings({ x, y }: { x: Axis; y: Axis | null }, resolved: unknown): string[] {
-  const settings = [`map.x=${axisToml(x)}`, ...(y === null ? [] : [`map.y=${axisToml(y)}`])];
-  const at = lookUp(resolved, "map.overturned_at");
-  return typeof at === "string" ? [...settings, `map.overturned_at="${at}"`] : settings;
-}
-
 /** Numbers of records: two files may have one name. */
 const numbers = new WeakMap<RecordFile, number>();
 let count = 0;

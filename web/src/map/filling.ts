@@ -1,6 +1,7 @@
 /** The map of a scene as it is filled by the workers. */
+import { inline } from "../controls/draft";
 import type { Axis, Boundary, Engine, MapAbout, Source } from "../engine";
-import { mapSettings } from "./axis";
+import { lookUp } from "./axis";
 import { Field } from "./field";
 
 /** A map that is filled, or has been. */
@@ -8,8 +9,8 @@ export class Filling {
   readonly source: Source;
   readonly about: MapAbout;
   readonly axes: { x: Axis; y: Axis | null };
-  /** `[map]` of the source as settings. */
-  readonly settings: string[];
+  /** `[map]` of the source as a setting. */
+  readonly setting: string;
   /** One a device. */
   readonly fields: Field[];
   /** Of every device, once they were asked for. */
@@ -20,14 +21,15 @@ export class Filling {
   running = false;
   private readonly abort = new AbortController();
 
-  private constructor(source: Source, about: MapAbout, axes: { x: Axis; y: Axis | null }, settings: string[]) {
-    [this.source, this.about, this.axes, this.settings] = [source, about, axes, settings];
+  private constructor(source: Source, about: MapAbout, axes: { x: Axis; y: Axis | null }, resolved: unknown) {
+    [this.source, this.about, this.axes] = [source, about, axes];
+    this.setting = `map=${inline(lookUp(resolved, "map"))}`;
     this.fields = about.devices.map(() => new Field(about.x.length, about.y.length));
   }
 
   /** A map of `source`, whose `[map]` is `axes`, without cells. */
   static async of(engine: Engine, source: Source, axes: { x: Axis; y: Axis | null }, resolved: unknown): Promise<Filling> {
-    return new Filling(source, await engine.mapAbout(source), axes, mapSettings(axes, resolved));
+    return new Filling(source, await engine.mapAbout(source), axes, resolved);
   }
 
   /** Share of the cells that are known. */

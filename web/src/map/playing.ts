@@ -69,9 +69,9 @@ export class Playing {
   }
 
   /** The scene of a cell, with the map that it is on. */
-  private async sourceOf({ source, settings }: Filling, { column, row }: Place): Promise<Source> {
+  private async sourceOf({ source, setting }: Filling, { column, row }: Place): Promise<Source> {
     const { records } = source;
     const text = await this.engine.cell(source, column, row);
-    return { text: await this.engine.set({ text, records }, settings), records };
+    return { text: await this.engine.set({ text, records }, [setting]), records };
   }
 }
