@@ -1,6 +1,6 @@
 /** Records of the user, dropped on the page or chosen: they become the ground motion of the scene, and stay on this machine. */
 import { button, choice, el, say } from "./dom";
-import { groundSettings } from "./controls/draft";
+import { listSettings } from "./controls/draft";
 import type { RecordAbout, RecordFile } from "./engine";
 import { recordsOf } from "./scene/open";
 import type { Store } from "./store";
@@ -98,7 +98,7 @@ async function shake(store: Store, file: RecordFile, options: { units?: string; 
   const waitsForIt = recordsOf(source.text).includes(file.name) && Object.keys(options).length === 0;
   const text = waitsForIt
     ? source.text
-    : await engine.set({ text: source.text, records }, groundSettings(store.run?.about ?? null, [table]));
+    : await engine.set({ text: source.text, records }, listSettings(store.run?.about ?? null, "ground", [table]));
   store.open({ text, records });
 }
 

@@ -2,7 +2,7 @@
  * The state of the page: the scene, what is played, its run, the cursor and the last failure. Whoever shows a part of it subscribes to that
  * part; nobody asks the engine for a run but this file.
  */
-import type { Engine, Run, Source } from "./engine";
+import type { About, Engine, Run, Source } from "./engine";
 import { mayMoveByItself } from "./motion_preference";
 import { endS, overturns } from "./response";
 
@@ -22,8 +22,8 @@ function endOf(run: Run): number {
 export class Store {
   /** Version, examples, keys and everything else that is computed. */
   readonly engine: Engine;
-  /** Settings that bring back what letting a block go has taken away; null where nothing was, and once another scene is opened. */
-  shaken: string[] | null = null;
+  /** Settings that bring back what letting a block go has taken away, and its scene; null where nothing was, and once another scene is opened. */
+  shaken: { about: About; settings: string[] } | null = null;
   private scene: Source = { text: "", records: [] };
   private preview: Source | null = null;
   private latestRun: Run | null = null;

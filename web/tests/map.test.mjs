@@ -236,6 +236,21 @@ test("a map that cannot be had is said, without the panels of another, and comes
   await until("no line", async () => (await alert(page).innerText()).trim() === "");
 });
 
+test("a map over a device goes with the device", async (t) => {
+  const page = await open(t);
+  const first = await anotherDigest(page, null);
+  const { map } = sections(page);
+  await map.scrollIntoViewIfNeeded();
+  const own = await toml(page).inputValue();
+  await toml(page).fill(own.replace("size_m = 2.0", "size_m = 2.5").replace("ground.0.frequency_hz", "device.2.mass_ratio"));
+  const second = await anotherDigest(page, first);
+  await page.getByRole("button", { name: texts.page.controls.remove("clutched pair"), exact: true }).click();
+  await anotherDigest(page, second);
+  await until("no map", () => map.getByText(words.noMap, { exact: true }).isVisible());
+  assert.doesNotMatch(await toml(page).inputValue(), /device\.2/);
+  assert.equal((await alert(page).innerText()).trim(), "");
+});
+
 test("a map is stopped, filled again, and dropped for another scene", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.nearFault);

@@ -113,7 +113,7 @@ test("steps go to the next and the previous event and stop at the ends", async (
 });
 
 test("a control writes the key that the scene has, and a map over a lost key goes", async () => {
-  const { Draft, groundSettings } = await load("controls/draft");
+  const { Draft, listSettings } = await load("controls/draft");
   const settings = [];
   const about = {
     resolved: {
@@ -133,8 +133,41 @@ test("a control writes the key that the scene has, and a map over a lost key goe
   // p = √(3g/(4R)): p = 1/s is 7.355 m, and R = 1.8387 m has p = 2/s.
   draft.setSize((3 * 9.80665) / 16);
   assert.deepEqual(settings, ["ground.0.amplitude_ratio=1", "ground.0.frequency_hz=2", "block.frequency_parameter_1_s=2"]);
-  assert.ok(groundSettings(about, []).includes("map="));
-  assert.ok(!groundSettings(about, [{ motion: "cosine", amplitude_ratio: 3 }]).includes("map="));
+  assert.ok(listSettings(about, "ground", []).includes("map="));
+  assert.ok(!listSettings(about, "ground", [{ motion: "cosine", amplitude_ratio: 3 }]).includes("map="));
+});
+
+test("a map goes once with the device that it is over, and with its place", async () => {
+  const { Draft } = await load("controls/draft");
+  const [none, inerter, pair] = [
+    { kind: "none" },
+    { kind: "inerter", mass_ratio: 0.5, mount: "tying-point", mount_height_m: 2 },
+    { kind: "clutched-pair", name: "pair", mass_ratio: 0.5 },
+  ];
+  const { mount_height_m: _, ...lower } = inerter;
+  const cases = [
+    ["device.1.mass_ratio", [none, pair], true],
+    ["device.2.mass_ratio", [none, inerter], true],
+    ["device.1.mass_ratio", [inerter, pair], true],
+    ["device.1.mount_height_m", [none, lower, pair], true],
+    ["device.1.mass_ratio", [none, lower, pair], false],
+    ["device.1.mass_ratio", [none, inerter], false],
+    ["device.1.mass_ratio", [none, inerter, pair, { kind: "inerter", name: "inerter 2" }], false],
+    // A key that the scene does not set can be an axis.
+    ["device.1.inertance_corner_hz", [none, inerter], false],
+    ["block.size_m", [none], false],
+  ];
+  for (const [key, devices, goes] of cases) {
+    const settings = [];
+    const about = { resolved: { device: [none, inerter, pair] }, map: { x: { key: "block.restitution" }, y: { key } } };
+    const draft = new Draft({ run: { about }, setSetting: (...given) => settings.push(...given) });
+    draft.take();
+    draft.replaceDevices(devices);
+    draft.replaceDevices(devices.slice(0, 1));
+    const lost = settings.filter((setting) => setting === "map=").length;
+    assert.equal(settings.indexOf("map=") === 1, goes, `${key} ${JSON.stringify(devices)}`);
+    assert.equal(lost, key.startsWith("device") ? 1 : 0, "what is gone cannot be left out again");
+  }
 });
 
 test("the success of a run takes away failures that were there before its scene, and no others", async () => {

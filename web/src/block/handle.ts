@@ -1,5 +1,5 @@
 /** The block as a handle: tilt it by pointer or arrow keys and let go, and it rocks freely without ground motion. */
-import { groundSettings, inline } from "../controls/draft";
+import { inline, listSettings } from "../controls/draft";
 import type { About } from "../engine";
 import { say } from "../dom";
 import { lookUp } from "../map/axis";
@@ -102,7 +102,7 @@ async function release(store: Store, ratio: number, shown: () => void): Promise<
     const settings = settingsOfRelease(about, ratio);
     if (listOf(about.resolved, "ground").length > 0) {
       const keys = settings.map((setting) => setting.slice(0, setting.indexOf("=")));
-      store.shaken = keys.map((key) => `${key}=${inline(lookUp(about.resolved, key))}`);
+      store.shaken = { about, settings: keys.map((key) => `${key}=${inline(lookUp(about.resolved, key))}`) };
     }
     store.restart(true);
     store.setSetting(...settings);
@@ -113,5 +113,5 @@ async function release(store: Store, ratio: number, shown: () => void): Promise<
 
 function settingsOfRelease(about: About, ratio: number): string[] {
   const vertical = listOf(about.resolved, "vertical").length > 0 ? ["vertical=[]"] : [];
-  return [`block.initial_rotation_ratio=${ratio}`, "block.initial_velocity_ratio=0", ...groundSettings(about, []), ...vertical];
+  return [`block.initial_rotation_ratio=${ratio}`, "block.initial_velocity_ratio=0", ...listSettings(about, "ground", []), ...vertical];
 }

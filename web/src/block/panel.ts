@@ -1,4 +1,5 @@
 /** The block with everything that belongs to it. */
+import { losesAxis } from "../controls/draft";
 import { el, button } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
@@ -58,10 +59,13 @@ function again(store: Store): HTMLElement {
   line.append(
     el("span", { textContent: texts.page.block.free }),
     button(texts.page.block.shake, () => {
-      // A map that was made meanwhile stays.
-      const hasMap = store.run?.about.map != null;
-      store.restart();
-      store.setSetting(...(store.shaken ?? []).filter((setting) => !(hasMap && setting.startsWith("map="))));
+      const { shaken, run } = store;
+      if (shaken) {
+        // A map that was made meanwhile stays, and one over a device that has gone does not come back.
+        const keepsOut = run?.about.map != null || losesAxis(shaken.about, "device", listOf(run?.about.resolved, "device"));
+        store.restart();
+        store.setSetting(...shaken.settings.filter((setting) => !(keepsOut && setting.startsWith("map="))));
+      }
     }),
   );
   store.subscribe("run", () => {

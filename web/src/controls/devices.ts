@@ -5,7 +5,7 @@ import { deviceLook } from "../colours";
 import { onTheme } from "../theme";
 import { texts } from "../texts";
 import { fieldset, type Group } from "./block";
-import type { Draft, Table } from "./draft";
+import { type Draft, nameOf, type Table } from "./draft";
 import { numberField } from "./field";
 
 const words = texts.page.controls;
@@ -74,7 +74,7 @@ function item(draft: Draft, name: string, index: number): HTMLElement {
 
 /** A name for a second device of a kind, whose names must differ; null where the kind itself is free. */
 function freeName(draft: Draft, kind: string): string | null {
-  const taken = new Set(draft.devices.map((table) => String(table["name"] ?? table["kind"])));
+  const taken = new Set(draft.devices.map(nameOf));
   if (!taken.has(kind)) {
     return null;
   }

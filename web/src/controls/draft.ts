@@ -60,7 +60,7 @@ export class Draft {
   /** Sets the list of devices. */
   replaceDevices(devices: Table[]): void {
     this.devices = devices;
-    this.store.setSetting(`device=${inline(devices)}`);
+    this.replace("device", devices);
   }
 
   /** A quantity of the first ground motion in SI units; null where it has none. */
@@ -88,7 +88,16 @@ export class Draft {
   /** Sets the list of ground motions. */
   replaceGrounds(grounds: Table[]): void {
     this.grounds = grounds;
-    this.store.setSetting(...groundSettings(this.about, grounds));
+    this.replace("ground", grounds);
+  }
+
+  private replace(list: List, tables: Table[]): void {
+    const settings = listSettings(this.about, list, tables);
+    if (this.about && settings.length > 1) {
+      // What is gone cannot be left out again.
+      this.about = { ...this.about, map: null };
+    }
+    this.store.setSetting(...settings);
   }
 
   private unitOf(quantity: Quantity): Unit | undefined {
@@ -110,14 +119,29 @@ export class Draft {
 /** Quantities of a ground motion that have a control, by their keys in SI units. */
 export type Quantity = "amplitude_m_s2" | "velocity_amplitude_m_s" | "frequency_hz" | "duration_s" | "scale";
 
-/** The settings that make `grounds` the ground motions; a map over a value that they do not have goes. */
-export function groundSettings(about: About | null, grounds: Table[]): string[] {
+/** A list of tables of a scene. */
+type List = "device" | "ground";
+
+/** The settings that make `tables` the `list` of the scene; its map goes where they do not have an axis of it. */
+export function listSettings(about: About | null, list: List, tables: Table[]): string[] {
+  return [`${list}=${inline(tables)}`, ...(losesAxis(about, list, tables) ? ["map="] : [])];
+}
+
+/** Whether an axis of the map is over a table of `list` that is not among `tables` at its place, or over a value that it has lost. */
+export function losesAxis(about: About | null, list: List, tables: Table[]): boolean {
   const axes = about?.map ? [about.map.x, about.map.y].flatMap((axis) => axis ?? []) : [];
-  const lost = axes.some(({ key }) => {
-    const [list, index, name] = key.split(".");
-    return list === "ground" && (grounds[Number(index)]?.[name ?? ""] ?? null) === null;
+  return axes.some(({ key }) => {
+    const [of, index, name = ""] = key.split(".");
+    const before = listOf(about?.resolved, list)[Number(index)] ?? {};
+    const after = tables[Number(index)] ?? {};
+    const has = (table: Table) => (table[name] ?? null) !== null;
+    return of === list && (!tables[Number(index)] || nameOf(before) !== nameOf(after) || (has(before) && !has(after)));
   });
-  return [`ground=${inline(grounds)}`, ...(lost ? ["map="] : [])];
+}
+
+/** What tells a device from others; ground motions have no name. */
+export function nameOf(device: Table): string {
+  return String(device["name"] ?? device["kind"]);
 }
 
 /** A number without the last digits, which a conversion has made up. */
