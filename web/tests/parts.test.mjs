@@ -117,24 +117,45 @@ test("a control writes the key that the scene has, and a map over a lost key goe
   const settings = [];
   const about = {
     resolved: {
-      block: { frequency_parameter_1_s: 1, slenderness_deg: 20, inertia_ratio: 4 / 3 },
+      block: { frequency_parameter_1_s: 1, slenderness_deg: 45, inertia_ratio: 4 / 3 },
       device: [],
       ground: [{ motion: "sine", amplitude_ratio: 2, frequency_hz: 1 }],
     },
-    frequencyParameter1S: 1,
-    upliftThresholdG: 0.25,
     map: { x: { key: "ground.0.amplitude_ratio" }, y: null },
   };
   const draft = new Draft({ run: { about }, setSetting: (...given) => settings.push(...given) });
   draft.take();
-  assert.equal(draft.ground("amplitude_m_s2"), 4.903325);
-  draft.setGround("amplitude_m_s2", 2.4516625);
+  assert.equal(draft.ground("amplitude_m_s2"), 19.6133);
+  draft.setGround("amplitude_m_s2", 9.80665);
   draft.setGround("frequency_hz", 2);
   // p = √(3g/(4R)): p = 1/s is 7.355 m, and R = 1.8387 m has p = 2/s.
   draft.setSize((3 * 9.80665) / 16);
   assert.deepEqual(settings, ["ground.0.amplitude_ratio=1", "ground.0.frequency_hz=2", "block.frequency_parameter_1_s=2"]);
   assert.ok(listSettings(about, "ground", []).includes("map="));
   assert.ok(!listSettings(about, "ground", [{ motion: "cosine", amplitude_ratio: 3 }]).includes("map="));
+});
+
+test("a quantity is converted by the block as it was set last, not as it was run last", async () => {
+  const { Draft } = await load("controls/draft");
+  const settings = [];
+  const ground = [{ motion: "rectangular", amplitude_ratio: 2, duration_ratio: 3 }];
+  for (const [geometry, threshold] of [
+    ["full", Math.sqrt(3)],
+    ["slender", Math.PI / 3],
+  ]) {
+    const block = { size_m: 1, slenderness_deg: 10, inertia_ratio: 4 / 3, geometry };
+    const about = { resolved: { block, ground, device: [] }, upliftThresholdG: 0.2, frequencyParameter1S: 2.7, map: null };
+    const draft = new Draft({ run: { about }, setSetting: (...given) => settings.push(...given) });
+    draft.take();
+    draft.setBlock("slenderness_deg", 60);
+    draft.setGround("amplitude_m_s2", 9.80665);
+    const set = Number(settings.at(-1).split("=")[1]);
+    assert.ok(Math.abs(set * threshold - 1) < 1e-11, `${geometry}: ${set}`);
+    // R = 3g/4 m has p = 1/s.
+    draft.setSize(0.75 * 9.80665);
+    draft.setGround("duration_s", 2);
+    assert.equal(settings.at(-1), "ground.0.duration_ratio=2");
+  }
 });
 
 test("a map goes once with the device that it is over, and with its place", async () => {

@@ -45,8 +45,7 @@ export class Draft {
     if (numberOf(this.block, "frequency_parameter_1_s") === null) {
       this.setBlock("size_m", sizeM);
     } else {
-      const inertia = numberOf(this.block, "inertia_ratio") ?? 4 / 3;
-      this.setBlock("frequency_parameter_1_s", rounded(Math.sqrt(G / (inertia * sizeM))));
+      this.setBlock("frequency_parameter_1_s", rounded(this.frequencyParameter(sizeM)));
     }
   }
 
@@ -100,13 +99,21 @@ export class Draft {
     this.store.setSetting(...settings);
   }
 
+  /** p (1/s) of a block of the size R (m). */
+  private frequencyParameter(sizeM: number): number {
+    return Math.sqrt(G / ((numberOf(this.block, "inertia_ratio") ?? 4 / 3) * sizeM));
+  }
+
+  /** By the block as it is here, for the last run may be that of another one. */
   private unitOf(quantity: Quantity): Unit | undefined {
     const table = this.grounds[0] ?? {};
-    const p = this.about?.frequencyParameter1S ?? 1;
+    const p = numberOf(this.block, "frequency_parameter_1_s") ?? this.frequencyParameter(numberOf(this.block, "size_m") ?? 1);
+    const alpha = ((numberOf(this.block, "slenderness_deg") ?? 0) * Math.PI) / 180;
+    const threshold = this.block["geometry"] === "slender" ? alpha : Math.tan(alpha);
     const ratios: Partial<Record<Quantity, Unit[]>> = {
       amplitude_m_s2: [
         ["amplitude_g", G],
-        ["amplitude_ratio", (this.about?.upliftThresholdG ?? 0) * G],
+        ["amplitude_ratio", threshold * G],
       ],
       frequency_hz: [["frequency_ratio", p / (2 * Math.PI)]],
       duration_s: [["duration_ratio", 1 / p]],
