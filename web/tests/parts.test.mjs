@@ -158,6 +158,25 @@ test("a quantity is converted by the block as it was set last, not as it was run
   }
 });
 
+test("another kind of motion keeps scale, start and a map over them", async () => {
+  const { Draft } = await load("controls/draft");
+  const { setMotion } = await load("controls/ground");
+  const record = { motion: "record", file: "own.csv", scale: 2, start_s: 1.5 };
+  for (const ground of [record, { motion: "sine", amplitude_g: 0.3, frequency_hz: 2, scale: 2, start_s: 1.5 }]) {
+    for (const motion of ["ricker", "rectangular", "mavroeidis-papageorgiou", "record"].filter((other) => other !== ground.motion)) {
+      const settings = [];
+      const about = { resolved: { block: {}, device: [], ground: [ground] }, map: { x: { key: "ground.0.scale" }, y: null } };
+      const store = { run: { about }, source: { records: [{ name: "own.csv" }] }, setSetting: (...given) => settings.push(...given) };
+      const draft = new Draft(store);
+      draft.take();
+      setMotion(draft, store, motion);
+      const { motion: set, scale, start_s } = draft.grounds[0];
+      assert.deepEqual([set, scale, start_s], [motion, 2, 1.5]);
+      assert.equal(settings.length, 1, `${settings}`);
+    }
+  }
+});
+
 test("a map goes once with the device that it is over, and with its place", async () => {
   const { Draft } = await load("controls/draft");
   const [none, inerter, pair] = [

@@ -37,8 +37,9 @@ export function groundControls(draft: Draft, store: Store): Group {
     }
     for (const { quantity, root, show } of fields) {
       const value = draft.ground(quantity);
-      // Pulses can be scaled, too; their amplitude says the same.
-      root.hidden = value === null || (quantity === "scale" && motion !== "record");
+      // Pulses can be scaled, too; their amplitude says the same. A slider that passes 1 stays.
+      const isIdle = quantity === "scale" && motion !== "record" && value === 1;
+      root.hidden = value === null || (isIdle && !root.contains(document.activeElement));
       show(value);
     }
     file.hidden = motion !== "record";
@@ -49,8 +50,8 @@ export function groundControls(draft: Draft, store: Store): Group {
   return { root: fieldset(words.ground, kind.root, file, several, ...fields.map(({ root }) => root)), show };
 }
 
-/** Another kind of motion, as strong and as fast as the present one where that has a strength and a frequency. */
-function setMotion(draft: Draft, store: Store, motion: string): void {
+/** Another kind of motion, as strong and as fast as the present one where that has a strength and a frequency, as scaled and as late. */
+export function setMotion(draft: Draft, store: Store, motion: string): void {
   if (ALIKE.includes(motion) && ALIKE.includes(String(draft.grounds[0]?.["motion"]))) {
     draft.setMotion(motion);
     return;
@@ -65,7 +66,8 @@ function setMotion(draft: Draft, store: Store, motion: string): void {
   }
   const amplitude = draft.ground("amplitude_m_s2") ?? 4;
   const frequency = draft.ground("frequency_hz") ?? 1.25;
-  const pulse = (table: Table): Table => ({ motion, ...table });
+  const { scale, start_s } = draft.grounds[0] ?? {};
+  const pulse = (table: Table): Table => ({ motion, ...table, scale, start_s });
   const tables: Record<string, () => Table> = {
     rectangular: () => pulse({ amplitude_m_s2: amplitude, duration_s: draft.ground("duration_s") ?? 0.25 }),
     "mavroeidis-papageorgiou": () => pulse({ velocity_amplitude_m_s: 0.8, frequency_hz: frequency, oscillations: 2, phase_deg: 0 }),
