@@ -6,7 +6,7 @@ import { recordsOf } from "./scene/open";
 import type { Store } from "./store";
 import { texts } from "./texts";
 
-/** Largest record that is taken (MB): it is copied into the memory of every worker. */
+/** Largest record that is taken (MB): it is copied into the memory of every worker that runs it. */
 export const MOST_MB = 50;
 
 const UNITS = ["g", "m/s2", "cm/s2", "mm/s2", "in/s2", "ft/s2"];

@@ -235,6 +235,26 @@ test("the success of a run takes away failures that were there before its scene,
   assert.deepEqual([store.message, runs.length], ["its map", 0]);
 });
 
+test("a worker gets the records that a scene names, and no others", async () => {
+  const sent = [];
+  globalThis.Worker = class extends EventTarget {
+    constructor() {
+      super();
+      setImmediate(() => this.dispatchEvent(Object.assign(new Event("message"), { data: { ready: { version: "", simd: true } } })));
+    }
+    postMessage(message) {
+      sent.push(message);
+    }
+  };
+  const { Workers } = await load("pool/workers");
+  const workers = new Workers({}, 1);
+  await workers.ready;
+  const records = ["own.csv", "other.csv", 'a "b".csv'].map((name) => ({ name, bytes: new Uint8Array(1) }));
+  void workers.run({ name: "about" }, { text: 'ground = [{ motion = "record", file = "own.csv" }, { file = "a \\"b\\".csv" }]', records });
+  const { source } = sent.at(-1).task.scene;
+  assert.deepEqual(source.records, [records[0], records[2]]);
+});
+
 test("values are written as TOML in one line", async () => {
   const { inline } = await load("controls/draft");
   assert.equal(

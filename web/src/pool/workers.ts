@@ -30,6 +30,12 @@ const KEPT_SCENES = 4;
 /** Workers that a job may break before it is given up. */
 const MOST_BROKEN = 2;
 
+/** The scene with no other records than those that its text may name: each is copied into the memory of the worker. */
+function withNamed({ text, records }: Source): Source {
+  // A text may write quotes and backslashes in other ways.
+  return { text, records: records.filter(({ name }) => text.includes(name) || /["\\]/.test(name)) };
+}
+
 /** A pool of workers. */
 export class Workers {
   private readonly members: Member[] = [];
@@ -155,7 +161,7 @@ export class Workers {
       member.scenes.push(number);
       forget.push(...member.scenes.splice(0, member.scenes.length - KEPT_SCENES));
     }
-    return { call, scene: { number, source: has ? null : source }, forget };
+    return { call, scene: { number, source: has ? null : withNamed(source) }, forget };
   }
 
   private send(member: Member, message: ToWorker): void {
