@@ -65,6 +65,24 @@ test("a scene that is too long for a link is said to be, and no link is copied",
   await says(words.scene.copied);
 });
 
+for (const [what, prepare] of [
+  ["refuses", () => void (navigator.clipboard.writeText = () => Promise.reject(new Error("no")))],
+  ["has no clipboard", () => void Object.defineProperty(navigator, "clipboard", { value: undefined })],
+]) {
+  test(`a link is not said to be copied where the browser ${what}`, async (t) => {
+    const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
+    await anotherDigest(page, null);
+    const link = page.getByRole("button", { name: words.scene.link, exact: true });
+    const copied = page.getByText(words.scene.copied, { exact: true });
+    await link.click();
+    await until("a copy", () => copied.isVisible());
+    await page.evaluate(prepare);
+    await link.click();
+    await until("a line", async () => (await alert(page).innerText()).includes(words.scene.copyFailed));
+    assert.equal(await copied.isVisible(), false);
+  });
+}
+
 for (const [what, change] of [
   ["cut off", (hash) => hash.slice(0, hash.length / 2)],
   ["changed", (hash) => hash.replace(/.{8}$/, "%%%%%%%%")],

@@ -26,18 +26,23 @@ export function scenePanel(store: Store): HTMLElement {
       text.value = store.source.text;
     }
   });
-  const copy = (value: () => string, done: () => string = () => words.copied) =>
-    navigator.clipboard.writeText(value()).then(
-      () => say(said, done()),
-      () => store.fail(words.copyFailed),
-    );
-  const paste = () =>
-    navigator.clipboard.readText().then(
-      (pasted) => {
-        store.open({ text: pasted, records: store.source.records });
-      },
-      () => store.fail(words.pasteFailed),
-    );
+  // Where a page has no right to the clipboard there may be none.
+  const copy = async (value: () => string, done: () => string = () => words.copied) => {
+    say(said, "");
+    try {
+      await navigator.clipboard.writeText(value());
+      say(said, done());
+    } catch {
+      store.fail(words.copyFailed);
+    }
+  };
+  const paste = async () => {
+    try {
+      store.open({ text: await navigator.clipboard.readText(), records: store.source.records });
+    } catch {
+      store.fail(words.pasteFailed);
+    }
+  };
   const edit = el(
     "div",
     {},
