@@ -15,18 +15,18 @@ export function keepTyped(input: HTMLInputElement): void {
   }
 }
 
-/** A labelled number; `given` is called when it is changed, but not with one that `allowed` excludes. */
-export function numberBox(label: string, allowed: { min?: number; max?: number; whole?: boolean }, given: (value: number) => void) {
+/** A labelled number; `given` is called when it is changed, and says what is wrong with one that `usual` excludes. */
+export function numberBox(label: string, usual: { min?: number; max?: number; whole?: boolean }, given: (value: number) => void) {
   const input = el("input", {
     type: "number",
     id: `number-${++boxes}`,
-    step: allowed.whole === true ? "1" : "any",
-    min: String(allowed.min ?? ""),
-    max: String(allowed.max ?? ""),
+    step: usual.whole === true ? "1" : "any",
+    min: String(usual.min ?? ""),
+    max: String(usual.max ?? ""),
   });
   keepTyped(input);
   input.addEventListener("change", () => {
-    if (input.value !== "" && input.checkValidity()) {
+    if (input.value !== "") {
       given(input.valueAsNumber);
     }
   });

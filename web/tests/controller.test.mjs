@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, scene, texts, until } from "./browser.mjs";
 import { hold, holdable, isHeld, letGo } from "./hold.mjs";
-import { EXAMPLES, choose, toml } from "./shell.mjs";
+import { EXAMPLES, alert, choose, toml } from "./shell.mjs";
 import { sections } from "./views.mjs";
 
 const words = texts.views.loop;
@@ -89,6 +89,23 @@ test("every setting of the controller counts, and the same setting gives the sam
     }
   }
   assert.match(await toml(page).inputValue(), /latency_s = 0.001/);
+});
+
+test("a number beyond its limits is said in one line, and the scene keeps its own", async (t) => {
+  const { page, first } = await openLoop(t);
+  for (const [label, wrong, own, line] of [
+    [words.latency, "200", "1", /controller\.latency_s is 0\.2, but must be from 0 to 0\.1 s/],
+    [words.rate, "50", "2000", /controller\.rate_hz is 50, but must be from 100 to 100000 Hz/],
+    [words.seed, "-1", "1", /controller\.sensors\.seed is -1, but must be a whole number/],
+  ]) {
+    const box = sections(page).loop.getByLabel(label, { exact: true });
+    await box.fill(wrong);
+    await box.press("Tab");
+    await until(`a line about ${label}`, async () => line.test(await alert(page).innerText()));
+    assert.equal((await alert(page).locator("span").innerText()).split("\n").length, 1);
+    await until(`${label} of the scene`, async () => (await box.inputValue()) === own);
+  }
+  assert.equal(await digest(page), first);
 });
 
 test("a change that comes while a loop runs is run after it", async (t) => {

@@ -188,6 +188,10 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await across.getByLabel(words.from).fill("99");
   await across.getByLabel(words.from).press("Tab");
   await until("a line about the axis", () => page.getByText(words.wrongAxis).isVisible());
+  await alert(page).getByRole("button", { name: texts.page.dismiss }).click();
+  await up.getByLabel(words.cells).fill("5000");
+  await up.getByLabel(words.cells).press("Tab");
+  await until("a line about the cells", () => page.getByText(words.wrongAxis).isVisible());
 
   await up.getByLabel(words.key).selectOption("");
   await until("one panel for a cut", async () => (await panels(page).count()) === 1);

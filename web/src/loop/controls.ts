@@ -32,9 +32,9 @@ export class ControllerForm {
     const law = list(words.law, words.laws, "law");
     const estimator = list(words.estimator, words.estimators, "estimator");
     const suite = list(words.suite, words.suites, "sensors.suite");
-    const latency = numberBox(words.latency, { min: 0, max: 100 }, (milliseconds) => set(`controller.latency_s=${milliseconds / 1000}`));
-    const rate = numberBox(words.rate, { min: 100, max: 100_000 }, (hertz) => set(`controller.rate_hz=${hertz}`));
-    const seed = numberBox(words.seed, { min: 0, whole: true }, (number) => set(`controller.sensors.seed=${number}`));
+    const latency = numberBox(words.latency, {}, (milliseconds) => set(`controller.latency_s=${milliseconds / 1000}`));
+    const rate = numberBox(words.rate, {}, (hertz) => set(`controller.rate_hz=${hertz}`));
+    const seed = numberBox(words.seed, { whole: true }, (number) => set(`controller.sensors.seed=${number}`));
     [this.law, this.estimator, this.suite] = [law.select, estimator.select, suite.select];
     [this.latency, this.rate, this.seed] = [latency.input, rate.input, seed.input];
     const fields = [law, estimator, suite, latency, rate, seed].map((one) => one.root);

@@ -45,7 +45,7 @@ export class InjectionForm {
   }
 
   private add(): void {
-    if (this.kind.value !== "" && this.at.value !== "" && this.at.checkValidity()) {
+    if (this.kind.value !== "" && this.at.value !== "" && this.at.reportValidity()) {
       this.set([...this.injected, { fault: this.kind.value, atS: this.at.valueAsNumber }]);
     }
   }
