@@ -9,7 +9,12 @@
 export interface RecordFile {
   name: string;
   bytes: Uint8Array;
+  /** Whether it is a file of the user. */
+  own?: boolean;
 }
+
+/** The record that the page has for the examples. */
+export const SAMPLE = "near_fault.csv";
 
 /** What a scene is made of: its TOML text, and the records that its `[[ground]]` names by `file`. */
 export interface Source {

@@ -46,7 +46,7 @@ export function recordControls(store: Store): HTMLElement {
       return;
     }
     try {
-      await take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
+      await take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()), own: true });
     } catch (problem) {
       store.fail(words.unreadable(file.name, String(problem)));
     }

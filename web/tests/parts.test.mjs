@@ -44,12 +44,16 @@ test("spans begin and end where the engaged flywheel changes", async () => {
 });
 
 test("an address gives its scene back, and refuses what was cut off, changed or blown up", async () => {
-  const { pack, unpack } = await load("scene/address");
+  const { isOwn, isPacked, pack, unpack } = await load("scene/address");
   const text = 'title = "σ, η and 🧱"\n[block]\nslenderness_deg = 10.0\n'.repeat(40);
   const fragment = await pack(text);
   assert.match(fragment, /^#s=[\w-]+$/);
   assert.ok(fragment.length < text.length / 4);
   assert.equal(await unpack(fragment), text);
+  const own = await pack(text, true);
+  assert.deepEqual([fragment, own].map(isOwn), [false, true]);
+  assert.ok(isPacked(fragment) && isPacked(own) && !isPacked("#main"));
+  assert.equal(await unpack(own), text);
   for (const broken of [fragment.slice(0, -9), "#s=", "#s=!!!", `#s=AAAA${fragment.slice(3)}`]) {
     await assert.rejects(unpack(broken), broken);
   }

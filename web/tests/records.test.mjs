@@ -36,6 +36,34 @@ test("the shipped record, dropped, gives the digest of the shipped scene", async
   await thisDigest(page, shipped);
 });
 
+test("a link asks for an own record of the shipped one's name, and takes the shipped one itself", async (t) => {
+  const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
+  await choose(page, EXAMPLES.nearFault);
+  const shipped = await shownDigest(page);
+  const hash = () =>
+    until("the scene in the address", async () => {
+      const now = new URL(page.url()).hash;
+      return /^#[so]=/.test(now) && now;
+    });
+  const toShipped = await hash();
+  await page.getByRole("button", { name: texts.page.scene.link, exact: true }).click();
+  await until("a copy without a warning", () => page.getByText(texts.page.scene.copied, { exact: true }).isVisible());
+  await drop(page, "near_fault.csv", MOTION);
+  const own = await anotherDigest(page, shipped);
+  const toOwn = await until("another address", async () => (await hash()) !== toShipped && hash());
+  await page.getByRole("button", { name: texts.page.scene.link, exact: true }).click();
+  await until("a warning", () => page.getByText(texts.page.scene.linkRecords).isVisible());
+
+  await page.evaluate((to) => void (location.hash = to), toShipped);
+  await thisDigest(page, shipped);
+
+  const other = await open(t, { hash: toOwn });
+  await until("a line", async () => /no record "near_fault.csv"/.test(await alert(other).innerText()));
+  assert.equal(await shownDigest(other), null);
+  await drop(other, "near_fault.csv", MOTION);
+  await thisDigest(other, own);
+});
+
 test("units are asked for where a record has none", async (t) => {
   const { page, before } = await opened(t);
   await drop(page, "bare.txt", MOTION.replace(/^.*\n/, "").replace(/^.*,/gm, ""));

@@ -1,5 +1,5 @@
 /** A worker: the core, and the last scenes that it was given. */
-import type { Source } from "../engine";
+import { SAMPLE, type Source } from "../engine";
 import initLanes, { pulses, simd } from "../core/lanes/sprag_lanes";
 import initPage, { digests, examples, faults, near_fault_csv, record, Scene, version } from "../core/page/sprag_page";
 import type { Call, FromWorker, Task, ToWorker } from "./messages";
@@ -35,7 +35,7 @@ function run(call: Call, task: Task): unknown {
     case "examples":
       return (JSON.parse(examples()) as [string, string][]).map(([name, text]) => {
         // Each its own, as arrays are handed over.
-        const records = text.includes("near_fault.csv") ? [{ name: "near_fault.csv", bytes: near_fault_csv() }] : [];
+        const records = text.includes(SAMPLE) ? [{ name: SAMPLE, bytes: near_fault_csv() }] : [];
         return { name, title: /^title = "(.*)"/m.exec(text)?.[1] ?? name, text, records };
       });
     case "faults":

@@ -1,11 +1,16 @@
-/** The scene in the address of the page: `#s=` and its TOML, deflated, in base64url. */
+/**
+ * The scene in the address of the page: `#s=` and its TOML, deflated, in base64url; `#o=` of a scene with an own record of the name of the
+ * page's, which is not to be taken for it.
+ */
 
 const PREFIX = "#s=";
+/** As long as the other. */
+const OWN_PREFIX = "#o=";
 /** Longest scene that is put into an address, and that is unpacked from one. */
 const MOST_CHARACTERS = 200_000;
 
-/** The fragment of a scene; null where the scene is too long. */
-export async function pack(text: string): Promise<string | null> {
+/** The fragment of a scene, with an own record for the page's if `hasOwn`; null where the scene is too long. */
+export async function pack(text: string, hasOwn = false): Promise<string | null> {
   if (text.length > MOST_CHARACTERS) {
     return null;
   }
@@ -16,12 +21,17 @@ export async function pack(text: string): Promise<string | null> {
   for (let i = 0; i < bytes.length; i += 4096) {
     binary += String.fromCharCode(...bytes.subarray(i, i + 4096));
   }
-  return PREFIX + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
+  return (hasOwn ? OWN_PREFIX : PREFIX) + btoa(binary).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
 /** Whether a fragment claims to be a scene. */
 export function isPacked(fragment: string): boolean {
-  return fragment.startsWith(PREFIX);
+  return fragment.startsWith(PREFIX) || isOwn(fragment);
+}
+
+/** Whether the scene of a fragment has an own record for the page's. */
+export function isOwn(fragment: string): boolean {
+  return fragment.startsWith(OWN_PREFIX);
 }
 
 /** The scene of a fragment. Rejects where it is none: cut off, changed, or of a size that no scene has. */

@@ -1,10 +1,10 @@
 /** Opens the scene of the page's address, or the first one; keeps the address up to date. */
 import { debounce } from "../dom";
-import type { RecordFile, Source } from "../engine";
+import { SAMPLE, type RecordFile, type Source } from "../engine";
 import { startText } from "../start";
 import type { Store } from "../store";
 import { texts } from "../texts";
-import { isPacked, pack, unpack } from "./address";
+import { isOwn, isPacked, pack, unpack } from "./address";
 
 const QUIET_MS = 400;
 
@@ -19,10 +19,11 @@ export function fitsAddress(): boolean {
 export async function openAddress(store: Store): Promise<void> {
   let written = "";
   const write = async () => {
-    const { text } = store.source;
-    const packed = text === startText ? "" : await pack(text);
+    const { source } = store;
+    const hasOwn = ownRecords(source).some(({ name }) => name === SAMPLE);
+    const packed = source.text === startText ? "" : await pack(source.text, hasOwn);
     // The scene may have changed while it was packed.
-    if (text !== store.source.text) {
+    if (source !== store.source) {
       return;
     }
     fits = packed !== null;
@@ -58,7 +59,7 @@ export async function openAddress(store: Store): Promise<void> {
 
 async function read(store: Store, fragment: string): Promise<void> {
   const text = await unpack(fragment).catch(() => null);
-  const source = text === null ? { text: startText, records: [] } : await withRecords(store, text);
+  const source = text === null ? { text: startText, records: [] } : await withRecords(store, text, isOwn(fragment));
   store.open(source);
   if (text === null) {
     store.fail(texts.page.scene.broken);
@@ -70,10 +71,18 @@ export function recordsOf(text: string): string[] {
   return Array.from(text.matchAll(/\bfile\s*=\s*["'](.+?)["']/g), ([, name]) => name ?? "");
 }
 
-/** The scene with the records that it names and that are at hand: those of the examples, and those of the scene before. */
-async function withRecords(store: Store, text: string): Promise<Source> {
+/** Files of the user that a scene names. */
+export function ownRecords({ text, records }: Source): RecordFile[] {
+  const named = recordsOf(text);
+  return records.filter(({ name, own }) => own === true && named.includes(name));
+}
+
+/** The scene with the records that it names and that are at hand: those of the scene before, and of the examples unless they are not meant. */
+async function withRecords(store: Store, text: string, hasOwn: boolean): Promise<Source> {
+  const before = store.source.records;
   const shipped = (await store.engine.examples()).flatMap(({ records }) => records);
-  const atHand = new Map<string, RecordFile>([...shipped, ...store.source.records].map((file) => [file.name, file]));
+  const files = hasOwn ? before.filter(({ own }) => own) : [...before, ...shipped];
+  const atHand = new Map(files.map((file) => [file.name, file]));
   const named = recordsOf(text);
   return { text, records: named.flatMap((name) => atHand.get(name) ?? []) };
 }

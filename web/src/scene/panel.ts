@@ -2,7 +2,7 @@
 import { button, debounce, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
-import { fitsAddress } from "./open";
+import { fitsAddress, ownRecords } from "./open";
 import { downloadPng } from "./png";
 
 const TYPING_MS = 400;
@@ -73,7 +73,7 @@ export function scenePanel(store: Store): HTMLElement {
 /** What is said after a link was copied: it cannot carry records of the user. */
 function linkNote(store: Store): string {
   const words = texts.page.scene;
-  return store.source.records.length > 0 ? `${words.copied}. ${words.linkRecords}` : words.copied;
+  return ownRecords(store.source).length > 0 ? `${words.copied}. ${words.linkRecords}` : words.copied;
 }
 
 function downloads(store: Store): HTMLElement {
