@@ -182,7 +182,8 @@ impl ClosedLoop<'_> {
             if whereabouts.motion.phase == Phase::Rest && time > clock.ground_end {
                 break;
             }
-            if tick.is_multiple_of(4096) && self.interrupt.is_set() {
+            // At each: over a device's line a thousand may take seconds, and the device must be let go of in time.
+            if self.interrupt.is_set() {
                 return Err(LoopError::Interrupted);
             }
             let mut sample = sensors.sample();
@@ -241,6 +242,10 @@ impl ClosedLoop<'_> {
         let mut pending = std::collections::VecDeque::from(vec![[false; 2]; lag + 1]);
         let (mut command, mut phase) = ([false; 2], ControllerPhase::Boot);
         for tick in 0..ticks {
+            // The first tick of the motion says so.
+            if self.interrupt.is_set() {
+                break;
+            }
             sensors.advance(tick as f64 * clock.period, &Truth::STILL);
             let mut sample = sensors.sample();
             sample.engaged = pending.pop_front().unwrap_or_default();

@@ -1,13 +1,17 @@
 //! What sensors see between ticks, and what the law on the true motion sees.
 
+use sprag_shared::control::controller::{Circumstances, Decision};
 use sprag_shared::control::law::{Law, Situation, Wish};
+use sprag_shared::control::sensing::sample::Sample;
+use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::math;
 use sprag_shared::motion::state::Phase;
 
-use super::LoopScene;
 use super::decisions::Decisions;
-use super::plant::Extremes;
-use super::run::Tick;
+use super::driver::Driver;
+use super::plant::{Extremes, Whereabouts};
+use super::run::{LoopError, Tick};
+use super::{LoopFailure, LoopScene};
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
 use crate::sensor::Truth;
@@ -236,4 +240,45 @@ fn an_impact_throws_the_centre_of_mass_up() {
         impacts += 1;
     }
     assert!(impacts >= 2, "{impacts}");
+}
+
+/// A controller at whose tick of this number Ctrl-C is pressed.
+struct Interrupted<'a> {
+    own: Box<dyn Driver>,
+    interrupt: &'a Interrupt,
+    ticks: u32,
+    at: u32,
+}
+
+impl Driver for Interrupted<'_> {
+    fn tick(&mut self, sample: &Sample, circumstances: Circumstances) -> Decision {
+        self.ticks += 1;
+        if self.ticks == self.at {
+            self.interrupt.set();
+        }
+        self.own.tick(sample, circumstances)
+    }
+
+    fn ideal(&mut self, plant: &Whereabouts, asked: bool) -> Wish {
+        self.own.ideal(plant, asked)
+    }
+
+    fn log(&self) -> Vec<Entry> {
+        self.own.log()
+    }
+}
+
+/// A tick over a device's line may take as long as a real one and more: before the motion and in it, none is made after Ctrl-C.
+#[test]
+fn an_interrupt_ends_a_loop_at_the_next_tick() {
+    let desk = scene(RIGID, SINE);
+    let prelude = (desk.controller.prelude_s / PERIOD) as u32;
+    for at in [prelude / 2, prelude + 1, prelude + 100] {
+        let interrupt = Interrupt::default();
+        let task = desk.task(0, 1, &interrupt);
+        let mut driver = Interrupted { own: task.driver().unwrap(), interrupt: &interrupt, ticks: 0, at };
+        let ended = task.run_with(&mut driver, &mut (), &mut Extremes::default(), &mut ());
+        assert!(matches!(ended, Err(LoopFailure::Loop(LoopError::Interrupted))), "{at}: {ended:?}");
+        assert_eq!(driver.ticks, at);
+    }
 }
