@@ -114,9 +114,9 @@ impl Link {
         (0..RECORDED_AT_ONCE).take_while(|_| in_time() && self.stored.recorder.work(&mut take)).count() > 0
     }
 
-    /// The recorder, where it is to erase a sector now.
+    /// The recorder, where it is to erase a sector now: not before the last answer is handed to the line, for it may take seconds.
     pub fn erasing(&mut self) -> Option<&mut Recorder<Recordings>> {
-        self.stored.recorder.erases().then_some(&mut self.stored.recorder)
+        (self.has_room() && self.stored.recorder.erases()).then_some(&mut self.stored.recorder)
     }
 
     /// Whether the processor may sleep until the next interrupt: bytes that come raise none, and where they make the ticks each counts.

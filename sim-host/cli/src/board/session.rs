@@ -86,20 +86,21 @@ impl<L: Line> Session<L> {
         Ok(replies)
     }
 
-    /// Makes a request until it is answered.
+    /// Makes a request until it is answered, however late: the answer to any attempt counts.
     ///
     /// # Errors
     /// [`DeviceError::Silent`], [`DeviceError::Refused`], or as the line.
     pub fn ask(&mut self, request: &Request) -> Result<Reply, DeviceError> {
+        let mut tags = Vec::new();
         for _ in 0..ATTEMPTS {
-            let tag = self.send(request)?;
+            tags.push(self.send(request)?);
             let (asked, mut periods) = (Instant::now(), 0);
             while asked.elapsed() < PATIENCE && periods < PERIODS {
                 let replies = self.receive(PATIENCE)?;
                 periods += 1;
                 for (of, reply) in replies {
                     match reply {
-                        _ if of != tag => {}
+                        _ if !tags.contains(&of) => {}
                         Reply::Refused(refusal) => return Err(DeviceError::Refused(RefusalText(refusal))),
                         reply => return Ok(reply),
                     }
@@ -180,5 +181,62 @@ impl<L: Line> Session<L> {
     /// The errors of the line.
     pub fn rehearse(&mut self, mishap: Mishap) -> Result<(), DeviceError> {
         self.send(&Request::Rehearse(mishap)).map(|_| ())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sprag_shared::link::Pace;
+
+    use super::*;
+
+    /// What a device says to the request of a number, from 1, with the tags of all requests so far.
+    type Script = fn(usize, &[u8]) -> Vec<(u8, Reply)>;
+
+    /// A device that says what is written.
+    struct Scripted {
+        script: Script,
+        deframer: Deframer,
+        tags: Vec<u8>,
+        said: Vec<u8>,
+    }
+
+    impl Line for Scripted {
+        fn send(&mut self, bytes: &[u8]) -> Result<(), DeviceError> {
+            for &byte in bytes {
+                let Some(Ok(received)) = self.deframer.feed::<Request>(byte) else { continue };
+                self.tags.push(received.tag);
+                for (tag, reply) in (self.script)(self.tags.len(), &self.tags) {
+                    let mut frame = [0; MAX_FRAME];
+                    let length = encode(tag, &reply, &mut frame)?;
+                    self.said.extend(&frame[..length]);
+                }
+            }
+            Ok(())
+        }
+
+        fn receive(&mut self, _patience: Duration) -> Result<Vec<u8>, DeviceError> {
+            Ok(std::mem::take(&mut self.said))
+        }
+
+        fn pace(&self) -> Pace {
+            Pace::Timer
+        }
+    }
+
+    fn session(script: Script) -> Session<Scripted> {
+        Session::new(Scripted { script, deframer: Deframer::new(), tags: Vec::new(), said: Vec::new() })
+    }
+
+    const DONE: Reply = Reply::Done(Done::AsAsked);
+
+    /// A device that erases a sector hears nothing for seconds, and then answers what it was asked first.
+    #[test]
+    fn a_late_answer_to_an_earlier_attempt_counts() {
+        let mut session = session(|number, tags| if number == 3 { vec![(tags[0], DONE)] } else { Vec::new() });
+        assert_eq!(session.order(&Request::EraseRecordings).unwrap(), Done::AsAsked);
+        // Those to the others come when something else has been asked.
+        session.line().script = |_, tags| vec![(tags[1], DONE), (tags[2], DONE), (tags[3], Reply::Done(Done::Stored))];
+        assert_eq!(session.order(&Request::Protect).unwrap(), Done::Stored);
     }
 }

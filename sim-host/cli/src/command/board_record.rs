@@ -221,13 +221,23 @@ fn trace(recording: &Recording) -> RecordingTrace {
     trace
 }
 
-/// How often it is asked whether it has been done, and for how long a device that erases a sector may be silent.
+/// How often it is asked whether it has been done, and for how long a device that erases may be silent: six sectors of at most 2.6 s, between
+/// which it may answer what was asked long ago.
 const PAUSE: Duration = Duration::from_millis(50);
-const SILENCE: Duration = Duration::from_secs(10);
+const SILENCE: Duration = Duration::from_secs(20);
 
 fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
-    session.order(&Request::EraseRecordings)?;
     let mut heard = Instant::now();
+    // Asked once more it erases nothing once more: what is blank is left alone.
+    while let Err(error) = session.order(&Request::EraseRecordings) {
+        if !matches!(error, DeviceError::Silent(_)) || heard.elapsed() >= SILENCE {
+            return Err(error.into());
+        }
+        if interrupt.is_set() {
+            return Err(Interrupted.into());
+        }
+    }
+    heard = Instant::now();
     loop {
         match recordings::state(session) {
             Ok(state) if state.activity == RecorderActivity::Erasing => heard = Instant::now(),
