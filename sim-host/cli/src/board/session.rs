@@ -3,9 +3,10 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
+use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::link::{
-    Deframer, Done, Identity, MAX_FRAME, Mishap, Reply, Request, Started, State, TickReport, TickSample, encode,
+    Deframer, Done, Identity, MAX_FRAME, Mishap, Refusal, Reply, Request, Started, State, TickReport, TickSample, encode,
 };
 
 use super::line::{DeviceError, Line, RefusalText};
@@ -143,6 +144,19 @@ impl<L: Line> Session<L> {
         }
     }
 
+    /// Has it test itself, from how it was `before`. An Armed one that refuses because it tests itself has heard, and its answer was lost.
+    ///
+    /// # Errors
+    /// The errors of [`Session::ask`].
+    pub fn self_test(&mut self, before: Phase) -> Result<(), DeviceError> {
+        match self.order(&Request::SelfTest) {
+            Err(DeviceError::Refused(RefusalText(Refusal::Busy(Phase::Boot | Phase::SelfTest)))) if before == Phase::Armed => {
+                Ok(())
+            }
+            done => done.map(|_| ()),
+        }
+    }
+
     /// The event log, oldest first, and how many entries there have ever been.
     ///
     /// # Errors
@@ -190,12 +204,12 @@ mod tests {
 
     use super::*;
 
-    /// What a device says to the request of a number, from 1, with the tags of all requests so far.
-    type Script = fn(usize, &[u8]) -> Vec<(u8, Reply)>;
+    /// What is said to the request of a number, from 1, with the tags of all requests so far.
+    type Script = dyn Fn(usize, &[u8]) -> Vec<(u8, Reply)>;
 
     /// A device that says what is written.
     struct Scripted {
-        script: Script,
+        script: Box<Script>,
         deframer: Deframer,
         tags: Vec<u8>,
         said: Vec<u8>,
@@ -224,8 +238,8 @@ mod tests {
         }
     }
 
-    fn session(script: Script) -> Session<Scripted> {
-        Session::new(Scripted { script, deframer: Deframer::new(), tags: Vec::new(), said: Vec::new() })
+    fn session(script: impl Fn(usize, &[u8]) -> Vec<(u8, Reply)> + 'static) -> Session<Scripted> {
+        Session::new(Scripted { script: Box::new(script), deframer: Deframer::new(), tags: Vec::new(), said: Vec::new() })
     }
 
     const DONE: Reply = Reply::Done(Done::AsAsked);
@@ -233,10 +247,28 @@ mod tests {
     /// A device that erases a sector hears nothing for seconds, and then answers what it was asked first.
     #[test]
     fn a_late_answer_to_an_earlier_attempt_counts() {
-        let mut session = session(|number, tags| if number == 3 { vec![(tags[0], DONE)] } else { Vec::new() });
+        let mut session = session(|number, tags| match number {
+            3 => vec![(tags[0], DONE)],
+            // Those to the others come when something else has been asked.
+            4 => vec![(tags[1], DONE), (tags[2], DONE), (tags[3], Reply::Done(Done::Stored))],
+            _ => Vec::new(),
+        });
         assert_eq!(session.order(&Request::EraseRecordings).unwrap(), Done::AsAsked);
-        // Those to the others come when something else has been asked.
-        session.line().script = |_, tags| vec![(tags[1], DONE), (tags[2], DONE), (tags[3], Reply::Done(Done::Stored))];
         assert_eq!(session.order(&Request::Protect).unwrap(), Done::Stored);
+    }
+
+    #[test]
+    fn a_self_test_whose_answer_is_lost_has_begun() {
+        let busy = |phase| Reply::Refused(Refusal::Busy(phase));
+        for (before, phase, begun) in [
+            (Phase::Armed, Phase::Boot, true),
+            (Phase::Armed, Phase::SelfTest, true),
+            (Phase::SelfTest, Phase::SelfTest, false),
+            (Phase::Armed, Phase::Rocking, false),
+        ] {
+            let mut session =
+                session(move |number, tags| if number == 1 { Vec::new() } else { vec![(tags[number - 1], busy(phase))] });
+            assert_eq!(session.self_test(before).is_ok(), begun, "{before:?} {phase:?}");
+        }
     }
 }

@@ -309,8 +309,8 @@ const PAUSE: Duration = Duration::from_millis(50);
 
 fn self_test(session: &mut Talk, json: bool, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let settings = parameters::read(session)?;
-    let before = session.state()?.log_count;
-    session.order(&Request::SelfTest)?;
+    let before = session.state()?;
+    session.self_test(before.phase)?;
     let time = |item: Item| settings.get(item.index()).map_or(0.0, f32::from_bits);
     // Each of its two parts may wait as long as this, and a device on a slow line more.
     let patience = time(Item::BootTime) + 2.0 * time(Item::CalibrationPatience) + 5.0;
@@ -329,7 +329,7 @@ fn self_test(session: &mut Talk, json: bool, out: &mut impl Write, interrupt: &I
         std::thread::sleep(PAUSE);
     };
     let (entries, total) = session.log()?;
-    let new = entries.len().min(total.saturating_sub(before) as usize);
+    let new = entries.len().min(total.saturating_sub(before.log_count) as usize);
     for entry in entries[entries.len() - new..].iter().filter(|_| !json) {
         writeln!(out, "{:9.3} s  {}", f64::from(entry.tick) * f64::from(settings.period()), what(entry.kind))?;
     }
