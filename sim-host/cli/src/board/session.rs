@@ -1,12 +1,12 @@
 //! Requests to a device and its replies.
 
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::control::supervisor::event_log::Entry;
 use sprag_shared::link::{
-    Deframer, Done, Identity, MAX_FRAME, Mishap, Refusal, Reply, Request, Started, State, TickReport, TickSample, encode,
+    Deframer, Done, Identity, MAX_FRAME, Mishap, Pace, Refusal, Reply, Request, Started, State, TickReport, TickSample, encode,
 };
 
 use super::line::{DeviceError, Line, RefusalText};
@@ -19,6 +19,29 @@ const ATTEMPTS: u32 = 6;
 
 /// Control periods for which a reply is waited for on a line that the device's timer paces.
 const PERIODS: u32 = 400;
+
+/// What the first tag follows upon: by the clock, where an answer to an earlier program may still come. A line that the device's timer paces
+/// begins with its device, and every run of it is the same.
+fn first_tag(pace: Pace) -> u8 {
+    match pace {
+        Pace::Timer => 0,
+        Pace::Sample => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| (time.subsec_micros() % 256) as u8),
+    }
+}
+
+/// Whether a reply is of the kind that a request has; a refusal is one to any.
+fn answers(reply: &Reply, request: &Request) -> bool {
+    match request {
+        _ if matches!(reply, Reply::Refused(_)) => true,
+        Request::Identify => matches!(reply, Reply::Identity(_)),
+        Request::State => matches!(reply, Reply::State(_)),
+        Request::Read { .. } => matches!(reply, Reply::Words(_)),
+        Request::Log { .. } => matches!(reply, Reply::Log(_)),
+        Request::Recorder => matches!(reply, Reply::Recorder(_)),
+        Request::Recorded { .. } => matches!(reply, Reply::Recorded(_)),
+        _ => matches!(reply, Reply::Done(_)),
+    }
+}
 
 /// A line to a device, and what has come over it.
 pub struct Session<L> {
@@ -34,7 +57,8 @@ pub struct Session<L> {
 impl<L: Line> Session<L> {
     /// On a line.
     pub fn new(line: L) -> Session<L> {
-        Session { line, deframer: Deframer::new(), tag: 0, ticks: VecDeque::new(), started: None, bad_frames: 0 }
+        let tag = first_tag(line.pace());
+        Session { line, deframer: Deframer::new(), tag, ticks: VecDeque::new(), started: None, bad_frames: 0 }
     }
 
     /// The line.
@@ -87,7 +111,7 @@ impl<L: Line> Session<L> {
         Ok(replies)
     }
 
-    /// Makes a request until it is answered, however late: the answer to any attempt counts.
+    /// Makes a request until it is answered, however late: the answer to any attempt counts, and of another kind none.
     ///
     /// # Errors
     /// [`DeviceError::Silent`], [`DeviceError::Refused`], or as the line.
@@ -101,7 +125,8 @@ impl<L: Line> Session<L> {
                 periods += 1;
                 for (of, reply) in replies {
                     match reply {
-                        _ if !tags.contains(&of) => {}
+                        // To an earlier request, and late.
+                        _ if !tags.contains(&of) || !answers(&reply, request) => {}
                         Reply::Refused(refusal) => return Err(DeviceError::Refused(RefusalText(refusal))),
                         reply => return Ok(reply),
                     }
@@ -200,7 +225,7 @@ impl<L: Line> Session<L> {
 
 #[cfg(test)]
 mod tests {
-    use sprag_shared::link::Pace;
+    use sprag_shared::link::{RecorderActivity, RecorderState};
 
     use super::*;
 
@@ -255,6 +280,15 @@ mod tests {
         });
         assert_eq!(session.order(&Request::EraseRecordings).unwrap(), Done::AsAsked);
         assert_eq!(session.order(&Request::Protect).unwrap(), Done::Stored);
+    }
+
+    /// An earlier program may have begun at the same tag.
+    #[test]
+    fn a_late_answer_of_another_kind_is_none() {
+        let activity = RecorderActivity::Ready;
+        let state = Reply::Recorder(RecorderState { pages: 1, next: 0, goes_round: false, activity, lost: 0, refused: 0 });
+        let mut session = session(move |_, tags| vec![(tags[0], DONE), (tags[0], state)]);
+        assert_eq!(session.ask(&Request::Recorder).unwrap(), state);
     }
 
     #[test]
