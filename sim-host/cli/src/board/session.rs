@@ -133,7 +133,7 @@ impl<L: Line> Session<L> {
                 }
             }
         }
-        Err(DeviceError::Silent(String::new()))
+        Err(DeviceError::Silent(", or speaks another link version".to_owned()))
     }
 
     /// Who it is.
@@ -289,6 +289,13 @@ mod tests {
         let state = Reply::Recorder(RecorderState { pages: 1, next: 0, goes_round: false, activity, lost: 0, refused: 0 });
         let mut session = session(move |_, tags| vec![(tags[0], DONE), (tags[0], state)]);
         assert_eq!(session.ask(&Request::Recorder).unwrap(), state);
+    }
+
+    /// Firmware drops frames of another version without a word.
+    #[test]
+    fn silence_may_be_another_version() {
+        let error = session(|_, _| Vec::new()).state().unwrap_err();
+        assert_eq!(error.to_string(), "the device does not answer, or speaks another link version");
     }
 
     #[test]
