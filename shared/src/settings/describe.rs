@@ -139,6 +139,9 @@ impl fmt::Display for Line {
     }
 }
 
+const REQUIRED: [Item; 4] =
+    [Item::RequiredGyroscope, Item::RequiredBlockAccelerometer, Item::RequiredGroundAccelerometer, Item::RequiredEncoder];
+
 /// How a parameter is bound by another one that [`super::assemble`] or [`super::wiring`] compares it with.
 fn relation(index: u16) -> &'static str {
     let is = |item: Item| item.index() == index;
@@ -152,7 +155,37 @@ fn relation(index: u16) -> &'static str {
         "the square of"
     } else if is(Item::LeverAcross) {
         "such that the lever at rest is above 0 with"
+    } else if is(Item::TemperatureLeast) {
+        "no more than"
+    } else if is(Item::Smoothing) {
+        "above 0 with"
+    } else if is(Item::RotationByEncoder) {
+        "such that errors die out with the other gains of"
+    } else if REQUIRED.into_iter().any(is) {
+        "true with"
     } else {
         "across"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn a_contradiction_says_what_must_be() {
+        let mut settings = Settings::default();
+        settings.set(Item::RequiredEncoder.index(), 0).unwrap();
+        for (item, other, line) in [
+            (Item::TemperatureLeast, Item::TemperatureMost, "no more than board.temperature_most, which is 70"),
+            (Item::RequiredEncoder, Item::Estimator, "true with estimator, which is model-aided"),
+            (Item::RotationByEncoder, Item::Estimator, "such that errors die out with the other gains of estimator, which is"),
+            (Item::Smoothing, Item::Estimator, "above 0 with estimator, which is"),
+            (Item::BlockUpAxis, Item::BlockAlongAxis, "across board.block_along_axis, which is"),
+        ] {
+            let said = SettingError::contradiction(item, other).describe(&settings).to_string();
+            assert!(said.contains(&["but must be ", line].concat()), "{said}");
+        }
     }
 }
