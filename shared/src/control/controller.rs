@@ -101,6 +101,11 @@ impl ControllerState {
         self.supervisor.log.push(entry);
     }
 
+    /// Ticks of the device before the next one, where some passed without the controller.
+    pub fn set_clock(&mut self, ticks: u32) {
+        self.supervisor.set_clock(ticks);
+    }
+
     /// Continues the log of before a reset, of which there have been `count` entries ever; its own has none yet.
     pub fn continue_log(&mut self, entries: impl Iterator<Item = Entry>, count: u32) {
         self.supervisor.log.go_on(entries, count);

@@ -347,6 +347,7 @@ impl Device {
     fn stand_aside(&mut self, fault: Fault) {
         self.clear = false;
         self.ticks = self.ticks.wrapping_add(1);
+        self.state.set_clock(self.ticks);
         if self.decision.fault != Some(fault) {
             self.note(Kind::Fault(fault.code()));
         }
@@ -362,6 +363,7 @@ impl Device {
             self.controller.resume(&mut self.state, calibration, *spins, *ground_drift, &self.sample);
         } else if self.waited < ticks(RESUME_PATIENCE, self.controller.instruments.period) {
             self.waited += 1;
+            self.state.set_clock(self.ticks);
             return false;
         }
         self.resuming = None;

@@ -153,6 +153,11 @@ impl SupervisorState {
         (*ladder, *scale) = (Ladder::default(), Scale::default());
     }
 
+    /// Ticks before the next one, of a clock that also goes on while no step is taken: all entries of the log are of one clock.
+    pub fn set_clock(&mut self, ticks: u32) {
+        self.tick = ticks;
+    }
+
     /// A board that measures its coils' currents shall try their switches one by one before it engages.
     pub fn tests_coils(&self) -> bool {
         self.phase == Phase::SelfTest || self.proof.goes_on()

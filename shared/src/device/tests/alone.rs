@@ -39,6 +39,23 @@ fn without_settings_of_its_own_it_does_not_arm() {
     bench.until(Phase::Armed, 5000);
 }
 
+/// The count of its ticks goes on while it stands aside, and nothing that is logged afterwards is earlier.
+#[test]
+fn the_log_has_one_clock() {
+    let mut bench = started(None, None, 0.0);
+    bench.ticks(10_000);
+    let check = Settings::default().check();
+    assert_eq!(bench.answer(Request::Apply { check, store: true }), Answer::Restarted(Reply::Done(Done::Stored)));
+    bench.until(Phase::Armed, 5000);
+    let armed = bench.device.ticks;
+    bench.device.warn(Fault::SupplyLow);
+    let logged: Vec<(Kind, u32)> = bench.device.logged(0).0.map(|(_, entry)| (entry.kind, entry.tick)).collect();
+    assert!(logged.is_sorted_by_key(|(_, tick)| *tick), "{logged:?}");
+    for kind in [Kind::Phase(Phase::Armed), Kind::Warning(Fault::SupplyLow.code())] {
+        assert!(logged.contains(&(kind, armed)), "{kind:?} not at {armed}: {logged:?}");
+    }
+}
+
 #[test]
 fn a_host_may_run_it_without_settings_of_its_own() {
     let mut bench = started(None, None, 0.0);

@@ -68,6 +68,14 @@ fn sensors_that_start_anew_are_waited_for_in_the_safe_state() {
             again.rig.advance(decision.command);
         }
     }
+    // What is logged after the waiting counts the ticks of the waiting, too.
+    let mut again = reset(&Bench::armed());
+    for _ in 0..100 {
+        again.device.tick(|_| {}, 0.0);
+    }
+    again.until(Phase::Calibrate, 5000);
+    let entered = again.device.logged(0).0.find(|(_, entry)| entry.kind == Kind::Phase(Phase::Calibrate));
+    assert_eq!(entered.map(|(_, entry)| entry.tick), Some(again.device.ticks));
     // One that never comes is a fault like any other, found from the beginning.
     let mut again = reset(&Bench::rocking());
     let mut phases = (0..4000).map(|_| {
