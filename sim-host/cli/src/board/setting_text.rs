@@ -162,6 +162,34 @@ pub fn with_board_of(settings: &Settings, board: &Settings) -> Settings {
     settings
 }
 
+/// How many parameters differ and from when to when they are in force, also from flash where they are `stored`; a board's own are taken over
+/// when it starts.
+pub fn changed(before: &Settings, now: &Settings, stored: bool) -> String {
+    let differing = |by_board: bool| {
+        let words = before.words().iter().zip(now.words());
+        let differ = |(description, (before, now)): &(&'static Description, (&u32, &u32))| {
+            before != now && (description.used == Use::Board) == by_board
+        };
+        Description::all().iter().zip(words).filter(differ).count()
+    };
+    let counted = |count: usize| if count == 1 { "1 parameter".to_owned() } else { format!("{count} parameters") };
+    let (controllers, boards) = (differing(false), differing(true));
+    let mut text = String::new();
+    if controllers > 0 || boards == 0 {
+        let until = if stored { "and kept in flash" } else { "until the next start; --store keeps them" };
+        text.push_str(&format!("{} changed; in force {until}\n", counted(controllers)));
+    }
+    if boards > 0 {
+        let when = if stored {
+            "kept in flash, in force from the next start on"
+        } else {
+            "without effect: only a start takes them over, and only from flash (--store)"
+        };
+        text.push_str(&format!("{} of board.* changed; {when}\n", counted(boards)));
+    }
+    text
+}
+
 /// A table of all of them: name, value, unit, range, default; a star marks those that the present choice of body, estimator and law does
 /// not read.
 pub fn table(settings: &Settings) -> String {
@@ -335,6 +363,34 @@ mod tests {
         }
         assigned(&mut settings, "supervisor.calibration_time = 3.5").unwrap();
         assert!(check(&settings).unwrap_err().contains("supervisor.calibration_patience"));
+    }
+
+    #[test]
+    fn what_a_board_takes_over_at_a_start_is_said_so() {
+        let before = Settings::default();
+        let said = |text: &str, stored| {
+            let mut now = before;
+            assigned(&mut now, text).unwrap();
+            changed(&before, &now, stored)
+        };
+        for (text, stored, line) in [
+            ("law=passive", false, "1 parameter changed; in force until the next start; --store keeps them\n"),
+            ("law=passive", true, "1 parameter changed; in force and kept in flash\n"),
+            ("law=resisting-predicted", true, "0 parameters changed; in force and kept in flash\n"),
+            (
+                "board.encoder_reversed=true",
+                true,
+                "1 parameter of board.* changed; kept in flash, in force from the next start on\n",
+            ),
+        ] {
+            assert_eq!(said(text, stored), line, "{text}");
+        }
+        let both = said("law=passive, board.encoder_reversed=true, board.coil_hold_share=0.5", false);
+        assert!(
+            both.starts_with("1 parameter changed; in force until")
+                && both.contains("\n2 parameters of board.* changed; without effect"),
+            "{both}"
+        );
     }
 
     #[test]

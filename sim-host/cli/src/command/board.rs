@@ -111,7 +111,7 @@ pub(super) struct JsonArguments {
     sprag board parameters --port /dev/ttyUSB0 --set model.mass_ratio=0.8 --set model.inertia_ratio=1.4 --store\n\n\
     Changes are checked as a whole before any is sent: first those of --scene, then those of --file, then those of --set; values that \
     contradict each other are refused. Gains and limits that a scene's sensors decide stay: --scene designs them, too. The device takes \
-    changes while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays.")]
+    changes while nothing moves, and starts its controller anew. A scene says nothing of how the board is wired: board.* stays. What is set of board.* is in force from the next start on, and only with --store.")]
 struct ParameterArguments {
     #[command(flatten)]
     line: LineArguments,
@@ -279,10 +279,7 @@ fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &m
     }
     let changed = given.store || given.scene.is_some() || given.file.is_some() || !given.set.is_empty();
     if changed {
-        let differing = before.words().iter().zip(now.words()).filter(|(before, now)| before != now).count();
-        let until = if given.store { "and kept in flash" } else { "until the next start; --store keeps them" };
-        let parameters = if differing == 1 { "parameter" } else { "parameters" };
-        writeln!(out, "{differing} {parameters} changed; in force {until}")?;
+        write!(out, "{}", setting_text::changed(before, now, given.store))?;
     }
     if let Some(path) = &given.out {
         // Not among the settings, if they are read from there.
