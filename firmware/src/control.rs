@@ -15,8 +15,8 @@ use sprag_shared::link::Pace;
 /// The part of a period by which a tick may come later than one period after the last and still be in time.
 const GRACE: u32 = 8;
 
-/// Periods without a sample from the link after which a device that is paced by samples ticks without them: the link is dead.
-const SILENCE_PERIODS: u32 = 2000;
+/// Time without a sample from the link after which a device that is paced by samples ticks without them, s: the link is dead.
+const SILENCE: f32 = 1.0;
 
 /// Ticks of which one shows the light and writes down what shall survive a reset: less than a slot of the light at any period, and too little
 /// for the block to move on by more than the encoder's counter knows. A new phase is written down at once.
@@ -72,6 +72,7 @@ pub struct Control {
     keeper: memory::Keeper,
     log: memory::LogKeeper,
     last: Option<u32>,
+    /// Periods without a sample.
     silence: u32,
     /// Counts ticks, for what need not be done at each.
     turn: u8,
@@ -138,7 +139,7 @@ pub fn control_tick(control: &mut Control, device: &mut Device, ring: &mut Ring,
         } else if timer {
             control.silence = control.silence.saturating_add(1);
         }
-        if device.has_sample() || control.silence > SILENCE_PERIODS {
+        if device.has_sample() || control.silence as f32 * device.period() > SILENCE {
             tick(control, device, ring, outbox, 0);
         }
     } else if timer {
