@@ -394,13 +394,17 @@ fn clear<W: Write>(session: &mut Talk, out: &mut W) -> anyhow::Result<()> {
     std::thread::sleep(PAUSE);
     let after = session.state()?;
     writeln!(out, "{} -> {}", phase_text(before.phase, before.fault), phase_text(after.phase, after.fault))?;
-    match after.fault {
-        Some(fault) if fault.recovery() == Recovery::ByStoring => {
-            Err(anyhow!("it stays in Fault: {fault}: sprag board parameters --scene SCENE.toml --store"))
-        }
-        Some(fault) => Err(anyhow!("it stays in Fault: {fault}; it leaves only at rest, and while nothing is wrong")),
-        None => Ok(()),
-    }
+    after.fault.map_or(Ok(()), |fault| Err(anyhow!(stays(fault))))
+}
+
+/// That a device stays in Fault, and what ends it.
+fn stays(fault: Fault) -> String {
+    let end = match fault.recovery() {
+        Recovery::ByStoring => ": sprag board parameters --scene SCENE.toml --store",
+        Recovery::ByStart => "; only a new start that does not find it again ends it",
+        Recovery::WhenGood | Recovery::OnRequest | Recovery::NotNeeded => "; it leaves only at rest, and while nothing is wrong",
+    };
+    format!("it stays in Fault: {fault}{end}")
 }
 
 /// Time between two reports that are drawn and two that are printed, s, and between two pictures.
@@ -456,4 +460,18 @@ fn redraw(picture: &str, height: usize, out: &mut impl Write) -> std::io::Result
     }
     out.flush()?;
     Ok(picture.lines().count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_only_a_start_ends_is_not_waited_for_at_rest() {
+        for fault in Fault::ALL {
+            let by_start = (65..=68).contains(&fault.code());
+            assert_eq!(stays(fault).contains("a new start"), by_start, "{fault}");
+            assert_eq!(stays(fault).contains("at rest, and while"), !by_start && ![63, 64].contains(&fault.code()), "{fault}");
+        }
+    }
 }
