@@ -51,13 +51,21 @@ pub fn quantity(settings: &Settings, name: &str) -> Option<f64> {
     }
 }
 
+/// Range of such a quantity, in words.
+pub fn range(name: &str) -> &'static str {
+    if name == INERTIA_RATIO { "from 1 to 4" } else { "from 0 to 10000" }
+}
+
 /// The value of such a quantity that `text` is, if it can be one.
 ///
 /// # Errors
 /// One line with the range.
 pub fn parse(name: &str, text: &str) -> Result<f64, String> {
-    let (range, words) = if name == INERTIA_RATIO { (1.0..=4.0, "from 1 to 4") } else { (0.0..=1e4, "from 0 to 10000") };
-    text.parse().ok().filter(|value| range.contains(value)).ok_or_else(|| format!("{name} is {text}, but must be {words}"))
+    let values = if name == INERTIA_RATIO { 1.0..=4.0 } else { 0.0..=1e4 };
+    text.parse()
+        .ok()
+        .filter(|value| values.contains(value))
+        .ok_or_else(|| format!("{name} is {text}, but must be {}", range(name)))
 }
 
 /// Lets the words that nobody gave follow from those that were `given` in the place of words of `before`.

@@ -78,24 +78,32 @@ pub struct ParameterRow {
     range: String,
 }
 
-/// All parameters, for JSON.
+/// Parameters, for JSON.
 #[derive(Debug, Serialize)]
 pub struct ParameterDocument {
     parameters: Vec<ParameterRow>,
 }
 
-/// Every parameter, for JSON.
-pub fn described(settings: &Settings) -> ParameterDocument {
+/// The parameters of these `names`, for JSON; without any every one.
+pub fn described(settings: &Settings, names: &[String]) -> ParameterDocument {
     // A number where it is one, otherwise a word.
-    let value = |text: String| serde_json::from_str(&text).unwrap_or(Value::String(text));
+    let json = |text: String| serde_json::from_str(&text).unwrap_or(Value::String(text));
+    let asked = |name: &str| names.iter().any(|asked| asked == name);
     let row = |(description, &word): (&'static Description, &u32)| ParameterRow {
         name: description.name,
-        value: value(description.show(word).to_string()),
+        value: json(description.show(word).to_string()),
         unit: description.unit,
-        default: value(description.show(description.default).to_string()),
+        default: json(description.show(description.default).to_string()),
         range: description.range().to_string(),
     };
-    ParameterDocument { parameters: Description::all().iter().zip(settings.words()).map(row).collect() }
+    let words = Description::all().iter().zip(settings.words()).filter(|(it, _)| names.is_empty() || asked(it.name)).map(row);
+    let following = |name: &'static str| {
+        let of = |settings: &Settings| value(settings, name).ok().map(json);
+        let (value, default) = (of(settings)?, of(&Settings::default())?);
+        Some(ParameterRow { name, value, unit: "", default, range: derived::range(name).to_owned() })
+    };
+    let followed = [derived::INERTIA_RATIO, derived::MASS_RATIO].into_iter().filter(|name| asked(name)).filter_map(following);
+    ParameterDocument { parameters: words.chain(followed).collect() }
 }
 
 /// The value of the parameter called `name`, or of a quantity that follows from several.
@@ -363,6 +371,20 @@ mod tests {
         }
         assigned(&mut settings, "supervisor.calibration_time = 3.5").unwrap();
         assert!(check(&settings).unwrap_err().contains("supervisor.calibration_patience"));
+    }
+
+    #[test]
+    fn json_has_the_parameters_that_were_asked_for() {
+        let names = |asked: &[&str]| {
+            let asked: Vec<String> = asked.iter().map(|name| (*name).to_owned()).collect();
+            let rows = described(&Settings::default(), &asked).parameters;
+            rows.into_iter().map(|row| (row.name, row.value)).collect::<Vec<_>>()
+        };
+        assert_eq!(names(&[]).len(), Description::all().len());
+        assert_eq!(names(&["law"]), [("law", Value::from("resisting-predicted"))]);
+        let both = names(&["model.inertia_ratio", "model.size"]);
+        assert_eq!(both[0], ("model.size", Value::from(2)));
+        assert!(both.len() == 2 && both[1].0 == "model.inertia_ratio" && both[1].1.is_f64(), "{both:?}");
     }
 
     #[test]

@@ -270,7 +270,7 @@ fn change(given: &ParameterArguments, context: &mut Context<'_>) -> anyhow::Resu
 /// What was asked for, or what has changed, or where neither is the case everything.
 fn report(given: &ParameterArguments, before: &Settings, now: &Settings, out: &mut impl Write) -> anyhow::Result<()> {
     if given.json.json {
-        return print_json(&setting_text::described(now), out);
+        return print_json(&setting_text::described(now, &given.get), out);
     }
     for name in &given.get {
         if let Ok(value) = setting_text::value(now, name) {
