@@ -132,7 +132,11 @@ pub fn check(settings: &Settings) -> Result<(), String> {
 pub fn to_toml(settings: &Settings) -> String {
     let mut text = String::from("# Parameters of a device: sprag board parameters --file THIS --port DEV\n");
     for (description, &word) in Description::all().iter().zip(settings.words()) {
-        let value = description.show(word);
+        let value = match description.show(word).to_string() {
+            // Without a point it would be an integer, which has no sign at zero.
+            zero if zero == "-0" => "-0.0".to_owned(),
+            value => value,
+        };
         let quote = if matches!(description.kind, Kind::Choice(_)) { "\"" } else { "" };
         text.push_str(&format!("\"{}\" = {quote}{value}{quote} # {}\n", description.name, description.range()));
     }
@@ -246,7 +250,7 @@ mod tests {
                 assert_eq!(from_toml(&Settings::default(), "a.toml", &to_toml(&settings)), Ok(settings), "{}", description.name);
             }
         }
-        for bits in [0x3DCC_CCCD_u32, 0x3F80_0001, 0x3E99_999A, 0x3EAA_AAAB, 0x3F7F_FFFF] {
+        for bits in [0x8000_0000, 0x3DCC_CCCD_u32, 0x3F80_0001, 0x3E99_999A, 0x3EAA_AAAB, 0x3F7F_FFFF] {
             let (index, _) = find("model.coupling").unwrap();
             settings.set(index, bits).unwrap();
             assert_eq!(from_toml(&Settings::default(), "a.toml", &to_toml(&settings)), Ok(settings), "{bits:x}");
