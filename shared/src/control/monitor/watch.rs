@@ -144,8 +144,10 @@ impl Watch {
         let (fresh, same) = (reading.number != self.number, reading.value.to_bits() == self.bits);
         let history = self.recall();
         history.age = history.age.saturating_add(1);
+        // At full scale a sensor that works repeats itself too.
+        let at_full_scale = reading.value.abs() >= limits.full_scale;
         if fresh {
-            let changed = !history.seen || !same;
+            let changed = !history.seen || !same || at_full_scale;
             if changed {
                 history.unchanged = Streak::default();
                 history.unchanged_moving = Streak::default();
@@ -156,7 +158,7 @@ impl Watch {
         }
         history.unchanged.note(history.seen);
         history.unchanged_moving.note(history.seen && moving);
-        history.saturated.note(history.seen && reading.value.abs() >= limits.full_scale);
+        history.saturated.note(history.seen && at_full_scale);
         if fresh {
             (self.number, self.bits) = (reading.number, reading.value.to_bits());
         }
@@ -206,6 +208,15 @@ mod tests {
             expected.step(Reading::default(), &LIMITS, false);
             assert!(!expected.seen());
             assert_eq!(expected.stale(&LIMITS), tick >= 6);
+        }
+    }
+
+    #[test]
+    fn at_full_scale_a_reading_that_repeats_is_saturated_and_not_stuck() {
+        for (value, stuck) in [(-10.0, false), (9.9, true)] {
+            let mut watch = Watch::default();
+            feed(&mut watch, 1..20, true, |_| value);
+            assert_eq!((watch.stuck(&LIMITS), watch.saturated(&LIMITS)), (stuck, !stuck), "{value}");
         }
     }
 
