@@ -2,8 +2,8 @@
 //!
 //! A comma also parts fields, so that commas are taken for decimal marks only where they can be nothing else.
 
+use super::columns::{is_acceleration, is_time};
 use super::error::RecordError;
-use super::table::{is_acceleration, is_time};
 use super::text::comment;
 
 /// The lines of a file with decimal commas, with points in their place; `None` if its commas are none, or may part fields.

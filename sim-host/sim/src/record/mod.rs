@@ -6,6 +6,7 @@
 
 mod at2;
 pub mod checks;
+mod columns;
 mod contents;
 mod decimal_comma;
 mod error;

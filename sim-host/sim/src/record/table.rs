@@ -1,6 +1,7 @@
 //! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
 
 use super::at2;
+use super::columns::{self, is_acceleration, is_time, reject_other, seconds_per_unit};
 use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_scale_factor};
 use super::error::RecordError;
 use super::number::{append_numbers, column_resolution, last_digit};
@@ -78,7 +79,7 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
         (None, names) => {
             let mut contents = Contents::new(Format::Values);
             let column = names.as_deref().and_then(|names| names.first()).copied().unwrap_or_default();
-            reject_other_column(name, column, names_line)?;
+            reject_other(name, column, names_line)?;
             contents.units = units_of(name, column, names_line, &rows)?;
             contents.header = header;
             contents.values = rows.values;
@@ -137,79 +138,8 @@ fn take_counts_row(rows: &mut Rows<'_>, lines: &[&str]) -> (Option<u64>, Option<
 fn column_names<'a>(rows: &Rows<'a>) -> Option<(usize, Vec<&'a str>)> {
     let width = rows.row(0).len();
     let first_row = rows.starts.first()?.0;
-    rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty()).find_map(|(index, line)| {
-        // As of a row of numbers, a separator at its end parts nothing.
-        let line = line.strip_suffix([',', ';']).unwrap_or(line);
-        let parted = line.contains([',', ';', '\t']);
-        let names: Vec<&str> =
-            if parted { line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect() } else { words(line) };
-        let named = names.iter().any(|name| is_time(name) || is_acceleration(name) || other_quantity(name).is_some());
-        (names.len() == width && named).then_some((*index, names))
-    })
-}
-
-/// The words of a line, each with the unit in brackets behind it: `Time (s)`.
-fn words(line: &str) -> Vec<&str> {
-    let mut words = Vec::new();
-    let mut rest = line.trim_start();
-    while !rest.is_empty() {
-        let word = rest.find(char::is_whitespace).unwrap_or(rest.len());
-        let blanks = rest[word..].len() - rest[word..].trim_start().len();
-        let unit = &rest[word + blanks..];
-        let end = match unit.find([')', ']']).filter(|_| unit.starts_with(['(', '['])) {
-            Some(bracket) => word + blanks + bracket + 1,
-            None => word,
-        };
-        words.push(&rest[..end]);
-        rest = rest[end..].trim_start();
-    }
-    words
-}
-
-fn first_word(name: &str) -> String {
-    name.trim().split(|c: char| !c.is_alphanumeric()).next().unwrap_or("").to_lowercase()
-}
-
-/// Whether a column of this name holds times.
-pub(super) fn is_time(name: &str) -> bool {
-    matches!(first_word(name).as_str(), "time" | "times" | "t" | "sec" | "seconds")
-}
-
-/// Whether a column of this name holds accelerations.
-pub(super) fn is_acceleration(name: &str) -> bool {
-    let word = first_word(name);
-    word.starts_with("acc") || matches!(word.as_str(), "a" | "ag")
-}
-
-/// What a column holds, if its name says that it is no acceleration.
-fn other_quantity(name: &str) -> Option<&'static str> {
-    let words = || name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
-    if words().any(|word| word.starts_with("acc")) {
-        return None;
-    }
-    words().find_map(|word| match word.as_str() {
-        word if word.starts_with("disp") || word.contains("displac") => Some("displacement"),
-        word if word.contains("veloc") || matches!(word, "vel" | "vels") => Some("velocity"),
-        word if word.contains("spectr") => Some("a spectrum"),
-        _ => None,
-    })
-}
-
-/// Refuses a column, named in line `line` from 0, whose name says that it is no acceleration.
-fn reject_other_column(name: &str, column: &str, line: usize) -> Result<(), RecordError> {
-    other_quantity(column).map_or(Ok(()), |quantity| {
-        let quantity = format!("{quantity} in column {}", column.chars().take(40).collect::<String>());
-        Err(RecordError::NotAcceleration { file: name.to_owned(), line: line + 1, quantity })
-    })
-}
-
-/// Seconds in one unit of a time column, by its name.
-fn seconds_per_unit(name: &str) -> f64 {
-    let milliseconds = name.split(|c: char| !c.is_alphanumeric()).any(|word| {
-        let word = word.to_lowercase();
-        word == "ms" || word == "msec" || word.starts_with("millis")
-    });
-    if milliseconds { 1e-3 } else { 1.0 }
+    let mut before = rows.header.iter().rev().filter(|(index, line)| *index < first_row && !line.is_empty());
+    before.find_map(|(index, line)| Some((*index, columns::in_line(line, width)?)))
 }
 
 fn looks_like_time(rows: &Rows<'_>) -> bool {
@@ -268,7 +198,7 @@ fn read_columns(
     contents.header = header;
     contents.component = (columns.len() > 1).then(|| labels[chosen].to_owned());
     let names_line = names.as_ref().map_or(0, |names| names.0);
-    reject_other_column(name, labels[chosen], names_line)?;
+    reject_other(name, labels[chosen], names_line)?;
     contents.units = units_of(name, labels[chosen], names_line, rows)?;
     contents.values = column(columns[chosen]).collect();
     let Some(time_column) = time_column else { return Ok(contents) };
