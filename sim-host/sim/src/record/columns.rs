@@ -40,6 +40,12 @@ pub(super) fn is_time(name: &str) -> bool {
     matches!(first_word(name).as_str(), "time" | "times" | "t" | "sec" | "seconds")
 }
 
+/// Whether a name has a word or a unit of time, in any language: `Zeit (s)`.
+pub(super) fn speaks_of_time(name: &str) -> bool {
+    let unit = |word: &str| matches!(word.to_lowercase().as_str(), "s" | "sec" | "secs" | "second" | "seconds");
+    is_time(name) || seconds_per_unit(name) != 1.0 || name.split(|c: char| !c.is_alphanumeric()).any(unit)
+}
+
 /// Whether a column of this name holds accelerations.
 pub(super) fn is_acceleration(name: &str) -> bool {
     let word = first_word(name);

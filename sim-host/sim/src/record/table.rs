@@ -1,7 +1,7 @@
 //! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
 
 use super::at2;
-use super::columns::{self, is_acceleration, is_time, reject_other, seconds_per_unit};
+use super::columns::{self, is_acceleration, is_time, reject_other, seconds_per_unit, speaks_of_time};
 use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_scale_factor};
 use super::error::RecordError;
 use super::number::{append_numbers, column_resolution, last_digit};
@@ -67,26 +67,19 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
         peak_m_s2: None,
         time_step: stated_first_row.1.or(step),
     };
-    let (names_line, names) = column_names(&rows).map_or((0, None), |(line, names)| (line, Some(names)));
-    let time_column = match &names {
-        Some(names) => names.iter().position(|name| is_time(name)).or_else(|| looks_like_time(&rows).then_some(0)),
-        None => looks_like_time(&rows).then_some(0),
+    let columns = Columns::of(&rows);
+    let mut contents = if columns.are_one_history() {
+        let mut contents = Contents::new(Format::Values);
+        let (line, column) =
+            columns.names.as_ref().map_or((0, ""), |(line, names)| (*line, names.first().copied().unwrap_or_default()));
+        reject_other(name, column, line)?;
+        contents.units = units_of(name, column, line, &rows)?;
+        contents.header = header;
+        contents.values = rows.values;
+        contents
+    } else {
+        read_columns(name, lines, &rows, header, &columns, options)?
     };
-    let mut contents = match (time_column, names) {
-        (None, Some(names)) if names.len() > 1 => {
-            read_columns(name, lines, &rows, header, (None, Some((names_line, names))), options)
-        }
-        (None, names) => {
-            let mut contents = Contents::new(Format::Values);
-            let column = names.as_deref().and_then(|names| names.first()).copied().unwrap_or_default();
-            reject_other(name, column, names_line)?;
-            contents.units = units_of(name, column, names_line, &rows)?;
-            contents.header = header;
-            contents.values = rows.values;
-            Ok(contents)
-        }
-        (time, names) => read_columns(name, lines, &rows, header, (time, names.map(|names| (names_line, names))), options),
-    }?;
     contents.warnings.splice(0..0, unreadable_samples);
     Ok(contents)
 }
@@ -134,6 +127,35 @@ fn take_counts_row(rows: &mut Rows<'_>, lines: &[&str]) -> (Option<u64>, Option<
     (Some(after as u64), step)
 }
 
+/// What the columns of a text are.
+struct Columns<'a> {
+    /// Their names, and the index of the line that has them.
+    names: Option<(usize, Vec<&'a str>)>,
+    /// The one that holds times.
+    time: Option<usize>,
+    /// Whether the first one counts the rows, and is left out.
+    counted: bool,
+}
+
+impl Columns<'_> {
+    fn of<'a>(rows: &Rows<'a>) -> Columns<'a> {
+        let names = column_names(rows);
+        let name = |column: usize| names.as_ref().map(|(_, names)| names[column]);
+        let counted = looks_like_time(rows, 0)
+            && counts_rows(rows)
+            && !name(0).is_some_and(|name| speaks_of_time(name) || is_acceleration(name));
+        let named = names.as_ref().and_then(|(_, names)| names.iter().position(|name| is_time(name)));
+        let first = usize::from(counted);
+        let time = named.or_else(|| looks_like_time(rows, first).then_some(first));
+        Columns { names, time, counted }
+    }
+
+    /// Whether the numbers are the samples of one history, row by row.
+    fn are_one_history(&self) -> bool {
+        self.time.is_none() && !self.counted && self.names.as_ref().is_none_or(|(_, names)| names.len() < 2)
+    }
+}
+
 /// Names in the last header line that has as many fields as the first row has columns, and the index of that line.
 fn column_names<'a>(rows: &Rows<'a>) -> Option<(usize, Vec<&'a str>)> {
     let width = rows.row(0).len();
@@ -142,15 +164,22 @@ fn column_names<'a>(rows: &Rows<'a>) -> Option<(usize, Vec<&'a str>)> {
     before.find_map(|(index, line)| Some((*index, columns::in_line(line, width)?)))
 }
 
-fn looks_like_time(rows: &Rows<'_>) -> bool {
+/// Whether a column grows as times do, and others stand behind it.
+fn looks_like_time(rows: &Rows<'_>, column: usize) -> bool {
     let count = rows.starts.len();
-    let width = rows.row(0).len();
+    let width = rows.row(0).len().saturating_sub(column);
     if width < 2 || count < 2 || (width > 2 && count < TIME_COLUMN_ROWS) {
         return false;
     }
-    let first = |row: usize| rows.row(row).first().copied().unwrap_or(f64::NAN);
-    let positive = (1..count).filter(|row| first(*row) > first(row - 1)).count();
+    let time = |row: usize| rows.row(row).get(column).copied().unwrap_or(f64::NAN);
+    let positive = (1..count).filter(|row| time(*row) > time(row - 1)).count();
     positive as f64 >= TIME_COLUMN_SHARE * (count - 1) as f64
+}
+
+/// Whether the first column is 0, 1, 2… or 1, 2, 3…, as programs write the numbers of rows beside them.
+fn counts_rows(rows: &Rows<'_>) -> bool {
+    let number = |row: usize| rows.row(row).first().copied().unwrap_or(f64::NAN);
+    [0.0, 1.0].contains(&number(0)) && (1..rows.starts.len()).all(|row| number(row) == number(0) + row as f64)
 }
 
 /// Which of the value columns to take.
@@ -175,7 +204,7 @@ fn read_columns(
     lines: &[&str],
     rows: &Rows<'_>,
     header: Header,
-    (time_column, names): (Option<usize>, Option<(usize, Vec<&str>)>),
+    Columns { names, time: time_column, counted }: &Columns<'_>,
     options: &ReadOptions,
 ) -> Result<Contents, RecordError> {
     let width = rows.row(0).len();
@@ -185,9 +214,10 @@ fn read_columns(
             return Err(RecordError::RaggedRow { file: name.to_owned(), line: start.0 + 1, found, expected: width });
         }
     }
-    let columns: Vec<usize> = (0..width).filter(|column| Some(*column) != time_column).collect();
+    let first = usize::from(*counted);
+    let columns: Vec<usize> = (first..width).filter(|column| Some(*column) != *time_column).collect();
     let numbered: Vec<String> = (1..=columns.len()).map(|number| number.to_string()).collect();
-    let labels: Vec<&str> = match &names {
+    let labels: Vec<&str> = match names {
         Some((_, names)) => columns.iter().map(|column| names[*column]).collect(),
         None => numbered.iter().map(String::as_str).collect(),
     };
@@ -201,7 +231,8 @@ fn read_columns(
     reject_other(name, labels[chosen], names_line)?;
     contents.units = units_of(name, labels[chosen], names_line, rows)?;
     contents.values = column(columns[chosen]).collect();
-    let Some(time_column) = time_column else { return Ok(contents) };
+    contents.warnings.extend(counted.then_some(Warning::RowNumbers));
+    let Some(time_column) = *time_column else { return Ok(contents) };
 
     let scale = names.as_ref().map_or(1.0, |(_, names)| seconds_per_unit(names[time_column]));
     let times: Vec<f64> = column(time_column).map(|time| time * scale).collect();

@@ -127,6 +127,36 @@ fn a_time_column_without_trailing_zeros_gives_the_true_step() {
 }
 
 #[test]
+fn a_column_that_counts_the_rows_is_no_time_column() {
+    let values = [0.0, 0.1, -0.2, 0.05, 0.0, 0.3, 0.1, 0.0, 0.1];
+    let g = ReadOptions { units: Some(Units::StandardGravity), time_step_s: Some(0.005), ..ReadOptions::default() };
+    let rows = |first: usize, row: &dyn Fn(usize, f64) -> String| -> String {
+        values.iter().enumerate().map(|(at, value)| format!("{}\n", row(first + at, *value))).collect()
+    };
+    let alone = read(&rows(0, &|_, value| value.to_string()), &g).unwrap().acceleration_m_s2;
+    let comma = |number: usize, value: f64| format!("{number},{value}");
+    for (header, first) in [(",acc_g\n", 0), ("\"\",\"acc_g\"\n", 1), ("Sample,acc_g\n", 0), ("# units: g\n", 1), ("", 0)] {
+        let record = read(&format!("{header}{}", rows(first, &comma)), &g).unwrap();
+        assert_eq!((record.time_step_s, &record.acceleration_m_s2), (0.005, &alone), "{header}");
+        assert!(record.warnings.contains(&Warning::RowNumbers), "{header}: {:?}", record.warnings);
+    }
+    let said = plain(&format!("# dt = 0.02\nn,acc_g\n{}", rows(0, &comma))).unwrap();
+    assert_eq!((said.time_step_s, &said.acceleration_m_s2), (0.02, &alone));
+    assert!(matches!(plain(&format!(",acc_g\n{}", rows(0, &comma))), Err(RecordError::MissingTimeStep { .. })));
+    // Times may stand behind it.
+    let timed = |number: usize, value: f64| format!("{number} {} {value}", number as f64 * 0.01);
+    for header in ["", "No,Zeit (s),acc_g\n", "# No,time_s,acc_g\n"] {
+        let record = read(&format!("{header}{}", rows(0, &timed)), &ReadOptions { time_step_s: None, ..g.clone() }).unwrap();
+        assert_eq!((record.time_step_s, &record.acceleration_m_s2, record.component), (0.01, &alone, None), "{header}");
+    }
+    // What is called time is time, in its unit.
+    for (header, step) in [("time_s,acc_g\n", 1.0), ("Zeit (ms),acc_g\n", 1e-3), ("t,acc_g\n", 1.0)] {
+        let record = plain(&format!("{header}{}", rows(0, &comma))).unwrap();
+        assert_eq!((record.time_step_s, record.warnings.contains(&Warning::RowNumbers)), (step, false), "{header}");
+    }
+}
+
+#[test]
 fn a_step_that_is_given_replaces_one_that_is_stated_only_where_it_is_near() {
     let of = |given: f64| {
         let text = "# dt = .01, units: g\n1\n2\n3\n";

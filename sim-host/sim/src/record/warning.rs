@@ -115,6 +115,8 @@ pub enum Warning {
         /// Step of the file (s).
         stated_s: f64,
     },
+    /// The first column of the file counts its rows and was left out.
+    RowNumbers,
     /// The commas of the file were read as decimal marks.
     DecimalCommas,
     /// A motion that is taken as horizontal, though its name or the file says that it is vertical.
@@ -174,6 +176,10 @@ impl fmt::Display for Warning {
             Warning::TimeStepNotUsed { given_s, stated_s } => {
                 write!(f, "time step {given_s} s not used: the file says {stated_s} s")
             }
+            Warning::RowNumbers => write!(
+                f,
+                "its first column counts the rows (0, 1, 2… or 1, 2, 3…) and is left out: it is not taken for time in s"
+            ),
             Warning::DecimalCommas => write!(f, "its commas are read as decimal marks"),
             Warning::VerticalComponent { sign } => {
                 write!(f, "seems to be a vertical component ({sign}), and is taken as a horizontal motion")
