@@ -10,7 +10,10 @@ pub(super) fn in_line(line: &str, width: usize) -> Option<Vec<&str>> {
     let names: Vec<&str> =
         if parted { line.split([',', ';', '\t']).map(|field| field.trim().trim_matches('"')).collect() } else { words(line) };
     let named = names.iter().any(|name| is_time(name) || is_acceleration(name) || other_quantity(name).is_some());
-    (names.len() == width && named).then_some(names)
+    // Lines of prose begin with a frequency as well, but numbers stand behind it: `Frequency, 100 Hz`.
+    let first_spectral = names.iter().find(|name| !name.is_empty()).is_some_and(|name| is_spectral(name));
+    let spectral = || first_spectral && !names.iter().any(|name| name.starts_with(|c: char| c.is_ascii_digit()));
+    (names.len() == width && (named || spectral())).then_some(names)
 }
 
 /// The words of a line, each with the unit in brackets behind it: `Time (s)`.
@@ -66,12 +69,40 @@ fn other_quantity(name: &str) -> Option<&'static str> {
     })
 }
 
+/// Most words in the name of a column, its unit among them, that is one by a word in its midst; more are prose.
+const MOST_WORDS: usize = 3;
+
+/// Whether a column of this name is one of a spectrum: periods, frequencies, or what is plotted over them.
+fn is_spectral(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    if words.iter().any(|word| word.starts_with("acc")) {
+        return words.contains(&"spectral");
+    }
+    // `Sampling frequency: 200 Hz` is a remark, `PSA 5% (g)` is none.
+    let number = |word: &str| word.starts_with(|c: char| c.is_ascii_digit()) && !word.contains('%');
+    if lower.contains([':', '=']) || lower.split_whitespace().any(number) {
+        return false;
+    }
+    let of_spectra = |word: &&str| matches!(*word, "period" | "periods" | "sa" | "psa") || word.starts_with("freq");
+    let in_hertz = ["(hz)", "[hz]"].iter().any(|unit| lower.contains(unit)) || words.last() == Some(&"hz");
+    words.first().is_some_and(of_spectra) || (words.len() <= MOST_WORDS && (in_hertz || words.iter().any(of_spectra)))
+}
+
 /// Refuses a column, named in line `line` from 0, whose name says that it is no acceleration.
 pub(super) fn reject_other(name: &str, column: &str, line: usize) -> Result<(), RecordError> {
-    other_quantity(column).map_or(Ok(()), |quantity| {
-        let quantity = format!("{quantity} in column {}", column.chars().take(40).collect::<String>());
-        Err(RecordError::NotAcceleration { file: name.to_owned(), line: line + 1, quantity })
-    })
+    other_quantity(column).map_or(Ok(()), |quantity| Err(refused(name, quantity, column, line)))
+}
+
+/// Refuses columns, named in line `line` from 0, of which one is of a spectrum.
+pub(super) fn reject_spectra(name: &str, columns: &[&str], line: usize) -> Result<(), RecordError> {
+    let column = columns.iter().find(|column| is_spectral(column));
+    column.map_or(Ok(()), |column| Err(refused(name, "a spectrum", column, line)))
+}
+
+fn refused(name: &str, quantity: &str, column: &str, line: usize) -> RecordError {
+    let quantity = format!("{quantity} in column {}", column.chars().take(40).collect::<String>());
+    RecordError::NotAcceleration { file: name.to_owned(), line: line + 1, quantity }
 }
 
 /// Seconds in one unit of a time column, by its name.

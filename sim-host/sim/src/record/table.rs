@@ -1,7 +1,7 @@
 //! Plain text and CSV: values alone in any number of columns, or a time column with one or more components.
 
 use super::at2;
-use super::columns::{self, is_acceleration, is_time, reject_other, seconds_per_unit, speaks_of_time};
+use super::columns::{self, is_acceleration, is_time, reject_other, reject_spectra, seconds_per_unit, speaks_of_time};
 use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_units, reject_scale_factor};
 use super::error::RecordError;
 use super::number::{append_numbers, column_resolution, last_digit};
@@ -68,6 +68,9 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
         time_step: stated_first_row.1.or(step),
     };
     let columns = Columns::of(&rows);
+    if let Some((line, names)) = &columns.names {
+        reject_spectra(name, names, *line)?;
+    }
     let mut contents = if columns.are_one_history() {
         let mut contents = Contents::new(Format::Values);
         let (line, column) =
@@ -143,7 +146,7 @@ impl Columns<'_> {
         let name = |column: usize| names.as_ref().map(|(_, names)| names[column]);
         let counted = looks_like_time(rows, 0)
             && counts_rows(rows)
-            && !name(0).is_some_and(|name| speaks_of_time(name) || is_acceleration(name));
+            && name(0).is_none_or(|name| !speaks_of_time(name) && !is_acceleration(name));
         let named = names.as_ref().and_then(|(_, names)| names.iter().position(|name| is_time(name)));
         let first = usize::from(counted);
         let time = named.or_else(|| looks_like_time(rows, first).then_some(first));

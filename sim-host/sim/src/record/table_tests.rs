@@ -198,6 +198,39 @@ fn columns_of_other_quantities_are_refused() {
 }
 
 #[test]
+fn spectra_are_refused_by_the_names_of_their_columns() {
+    let g = ReadOptions { units: Some(Units::StandardGravity), time_step_s: Some(0.01), ..ReadOptions::default() };
+    let rows = "0.00,0.4\n0.02,0.5\n0.04,0.6\n";
+    for names in [
+        "Period (s),Sa (g)",
+        "Period (s),Acceleration (g)",
+        "Period\tAcceleration",
+        "T (s),PSa 5% (g)",
+        "T (s),Spectral acceleration (g)",
+        "Frequency (Hz),Amplitude (g)",
+        "freq_hz,acc_g",
+        "t,Fourier (Hz)",
+        "# natural period,acc",
+    ] {
+        let error = read(&format!("{names}\n{rows}"), &g).unwrap_err();
+        assert!(matches!(error, RecordError::NotAcceleration { line: 1, .. }), "{names}: {error}");
+        assert!(error.to_string().contains("the header says a spectrum in column "), "{error}");
+    }
+    for names in [
+        "time_s,acc_hz",
+        "time_s,acc_sa_g",
+        "time_s,acc (g) low frequency removed",
+        "Time history,sampling frequency 200 Hz",
+        "Time,usage",
+        "# Sampling frequency: 50 Hz, corrected",
+        "# Frequency, 50 Hz",
+    ] {
+        let record = read(&format!("{names}\n{rows}"), &g).unwrap_or_else(|error| panic!("{names}: {error}"));
+        assert_eq!((record.acceleration_m_s2.len(), record.time_step_s), (3, 0.02), "{names}");
+    }
+}
+
+#[test]
 fn the_unit_of_a_column_is_the_end_of_its_name() {
     let text = "time_s,acc_x_g,acc_y_mm_s2,acc_z_mg\n0,0.1,100,1\n1,0.2,-200,2\n";
     let of = |component: &str| read(text, &ReadOptions { component: Some(component.into()), ..ReadOptions::default() });
