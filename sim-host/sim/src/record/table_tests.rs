@@ -59,6 +59,18 @@ fn values_alone_need_a_step_and_units() {
 }
 
 #[test]
+fn no_sample_is_lost_where_line_ends_are_mixed() {
+    let text = "# acc_g, DT=0.005\n0.0\n0.1\n-0.2\n# a remark\n0.3\n0.1\n";
+    let expected = plain(text).unwrap();
+    for lines in 1..7 {
+        for end in ["\r", "\r\n", "\r\r\n"] {
+            let mixed = text.replacen('\n', end, lines);
+            assert_eq!(plain(&mixed).unwrap().acceleration_m_s2, expected.acceleration_m_s2, "{mixed:?}");
+        }
+    }
+}
+
+#[test]
 fn a_remark_does_not_overrule_the_units_and_two_remarks_state_none() {
     let units = |header: &str| plain(&format!("# DT = 0.02\n{header}1\n2\n3\n")).map(|record| record.units);
     let (said, remark) = ("# units: cm/s2\n", "# PGA 0.300 (g)\n");

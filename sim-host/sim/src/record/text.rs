@@ -32,10 +32,9 @@ pub(super) fn comment(line: &str) -> Option<&str> {
     (text.len() < plain.len()).then_some(text)
 }
 
-/// The lines of a text without their ends: `\n`, `\r\n`, or `\r` alone in files of old machines.
+/// The lines of a text without their ends: `\n`, `\r\n`, or `\r` as of old machines, also where a file has several kinds.
 pub(super) fn lines(text: &str) -> Vec<&str> {
-    let end = if text.contains('\n') { '\n' } else { '\r' };
-    text.split(end).map(|line| line.strip_suffix('\r').unwrap_or(line)).collect()
+    text.split('\n').flat_map(|line| line.trim_end_matches('\r').split('\r')).collect()
 }
 
 #[cfg(test)]
@@ -49,6 +48,7 @@ mod tests {
         assert_eq!(decode("f", "Düzce".as_bytes()).unwrap(), "Düzce");
         assert_eq!(lines("a\r\nb\n"), ["a", "b", ""]);
         assert_eq!(lines("a\rb"), ["a", "b"]);
+        assert_eq!(lines("a\rb\r\nc\r\r\nd\ne"), ["a", "b", "c", "d", "e"]);
     }
 
     #[test]
