@@ -27,7 +27,7 @@ mod warning;
 use std::fmt;
 use std::fs::File;
 use std::io::Read as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use contents::{Format, Header, StatedStep};
 pub use error::RecordError;
@@ -54,6 +54,13 @@ pub const TIME_STEP_RANGE_S: (f64, f64) = (1e-5, 1.0);
 pub struct Component(String);
 
 impl Component {
+    /// The file and the component that `FILE#NAME` means; none if a file of the whole name exists, or none called FILE.
+    pub fn of_path(path: &Path) -> Option<(PathBuf, Component)> {
+        let name = path.to_string_lossy();
+        let (file, component) = name.rsplit_once('#').filter(|(file, _)| !path.exists() && Path::new(file).is_file())?;
+        Some((PathBuf::from(file), Component::from(component)))
+    }
+
     /// Position among the labels of a file: the same name, a word that only one of the names has, or the number; case does not matter.
     fn position_in(&self, labels: &[&str]) -> Option<usize> {
         let asked = self.0.to_lowercase();
@@ -127,12 +134,9 @@ impl Record {
     pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Record, RecordError> {
         let path = path.as_ref();
         let name = path.to_string_lossy().into_owned();
-        if !path.exists()
-            && let Some((file, component)) = name.rsplit_once('#')
-            && Path::new(file).is_file()
-        {
-            let options = ReadOptions { component: Some(Component::from(component)), ..options.clone() };
-            return Record::parse(&name, &file_bytes(Path::new(file), &name)?, &options);
+        if let Some((file, component)) = Component::of_path(path) {
+            let options = ReadOptions { component: Some(component), ..options.clone() };
+            return Record::parse(&name, &file_bytes(&file, &name)?, &options);
         }
         Record::parse(&name, &file_bytes(path, &name)?, options)
     }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use rayon::prelude::*;
 use sprag_sim::ground_motion::{self, GroundMotion};
-use sprag_sim::record::{Component, ReadOptions, Record, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines};
+use sprag_sim::record::{
+    Component, ReadOptions, Record, RecordError, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines,
+};
 use sprag_sim::scene::SceneError;
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::motions::GroundMotions;
@@ -62,6 +64,8 @@ enum Described {
     Bare,
     /// What its folder's entry says.
     OfFolder,
+    /// Which component of it is meant, behind its `#`.
+    Component,
     /// What its own entry says.
     Alone,
 }
@@ -78,8 +82,16 @@ struct Source {
 }
 
 impl Source {
+    /// The file, and the component that is asked of it.
+    fn asked(&self) -> (PathBuf, Option<String>) {
+        let component = self.options.component.as_ref().map(|component| component.to_string().to_lowercase());
+        (self.file.clone(), component)
+    }
+
     fn unnamed(&self) -> Unnamed {
-        let part = self.options.component.as_ref().map(ToString::to_string);
+        // `FILE#NAME` says it already.
+        let part = self.options.component.as_ref().filter(|_| Component::of_path(&self.path).is_none());
+        let part = part.map(ToString::to_string);
         Unnamed { short: self.name.clone(), path: self.path.clone(), file: self.file.clone(), part }
     }
 }
@@ -95,20 +107,24 @@ impl StudyRecords {
         let mut found = StudyRecords::default();
         let mut sources = sources(study, &mut found)?;
         let mut described: BTreeMap<PathBuf, Described> = BTreeMap::new();
+        let mut alone = BTreeSet::new();
         for source in &sources {
             let most = described.entry(source.file.clone()).or_insert(source.described);
             *most = source.described.max(*most);
+            alone.extend((source.described == Described::Alone).then(|| source.asked()));
         }
         let mut seen = BTreeSet::new();
         sources.retain(|source| {
-            let component = source.options.component.as_ref().map(|component| component.to_string().to_lowercase());
-            described.get(&source.file) == Some(&source.described) && seen.insert((source.file.clone(), component))
+            let of_component = source.described == Described::Component && !alone.contains(&source.asked());
+            (described.get(&source.file) == Some(&source.described) || of_component) && seen.insert(source.asked())
         });
-        let names = record_name::names(&sources.iter().map(Source::unnamed).collect::<Vec<_>>());
         let read: Vec<_> = sources.par_iter().map(|source| Record::read(&source.path, &source.options)).collect();
-        for ((name, source), record) in names.into_iter().zip(&sources).zip(read) {
+        let mut read: Vec<_> = sources.into_iter().zip(read).collect();
+        drop_repeated(&mut read);
+        let names = record_name::names(&read.iter().map(|(source, _)| source.unnamed()).collect::<Vec<_>>());
+        for (name, (source, record)) in names.into_iter().zip(read) {
             match record {
-                Ok(record) => found.records.push(StudyRecord::of(name, record.as_horizontal(), source.event.clone())),
+                Ok(record) => found.records.push(StudyRecord::of(name, record.as_horizontal(), source.event)),
                 Err(error) => found.unreadable.push(match error.key() {
                     Some(key) => format!("{error}, or record.{key} in {}", study.origin),
                     None => error.to_string(),
@@ -148,6 +164,26 @@ impl StudyRecords {
     }
 }
 
+/// Leaves one of the records that turn out to be of the same component of the same file, whatever they were asked for by: that of
+/// which the study says most, of these the first.
+fn drop_repeated(read: &mut Vec<(Source, Result<Record, RecordError>)>) {
+    let of = |source: &Source, record: &Record| (source.file.clone(), record.component.clone());
+    let mut counted: BTreeMap<_, (Described, usize)> = BTreeMap::new();
+    for (index, (source, record)) in read.iter().enumerate() {
+        if let Ok(record) = record {
+            let first = counted.entry(of(source, record)).or_insert((source.described, index));
+            if source.described > first.0 {
+                *first = (source.described, index);
+            }
+        }
+    }
+    let mut index = 0..;
+    read.retain(|(source, record)| {
+        let at = index.next();
+        record.as_ref().map_or(true, |record| counted.get(&of(source, record)).map(|counted| counted.1) == at)
+    });
+}
+
 /// The files of `study`; what is no file, and folders without any, are noted in `found`.
 fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, SceneError> {
     let mut sources = Vec::new();
@@ -180,7 +216,14 @@ fn sources(study: &Study, found: &mut StudyRecords) -> Result<Vec<Source>, Scene
                 RecordEntry::Described(_) if file == path => Described::Alone,
                 RecordEntry::Described(_) => Described::OfFolder,
             };
-            let (known, options, event) = (same_file(&file), options.clone(), event.clone());
+            let (mut options, event) = (options.clone(), event.clone());
+            let (known, described) = match Component::of_path(&file) {
+                Some((of, component)) => {
+                    options.component = Some(component);
+                    (same_file(&of), described.max(Described::Component))
+                }
+                None => (same_file(&file), described),
+            };
             sources.push(Source { name, path: file, file: known, options, event, described });
         }
     }
@@ -236,6 +279,36 @@ mod tests {
         assert_eq!(names(&found), ["both.json, x", "both.json, y"], "{:?}", found.unreadable);
         let peaks: Vec<f64> = found.records.iter().map(|record| record.motion.intensity.pga_m_s2).collect();
         assert_eq!(peaks[1], 3.0 * peaks[0]);
+    }
+
+    #[test]
+    fn a_component_counts_once_however_it_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("a")).unwrap();
+        for file in ["both.json", "a/both.json"] {
+            std::fs::write(folder.path().join(file), TWO_COMPONENTS).unwrap();
+        }
+        let of = |records: &str| StudyRecords::read(&study(folder.path(), records)).unwrap();
+        let x = "{ file = 'both.json', component = '1', event = 'A' }";
+        for (records, expected) in [
+            ("['both.json#x', 'both.json#X', 'both.json#1', 'a/../both.json#x']".to_owned(), "both.json#x"),
+            (format!("['both.json#x', {x}]"), "both.json"),
+            (format!("[{x}, 'both.json#X']"), "both.json"),
+            // The larger peak is that of y.
+            ("['both.json', { file = 'both.json', component = 'y' }]".to_owned(), "both.json"),
+            ("['both.json', 'both.json#y']".to_owned(), "both.json#y"),
+        ] {
+            let found = of(&records);
+            assert_eq!((names(&found), &found.unreadable[..]), (vec![expected], &[][..]), "{records}");
+            assert_eq!(found.records[0].event.as_deref(), records.contains("event").then_some("A"), "{records}");
+        }
+        for records in
+            ["['both.json#x', 'both.json#y']".to_owned(), format!("['both.json#y', {x}]"), format!("[{x}, 'both.json#2']")]
+        {
+            assert_eq!(of(&records).records.len(), 2, "{records}");
+        }
+        // One of a folder is replaced by those that are named.
+        assert_eq!(names(&of("['a', 'a/both.json#x', 'a/both.json#y']")), ["both.json#x", "both.json#y"]);
     }
 
     #[test]
