@@ -164,7 +164,7 @@ impl Record {
         };
         let mut contents = if smc::recognises(&lines) || ending == "smc" {
             smc::read(name, &lines)?
-        } else if let Some(counts_line) = at2::counts_line(&lines) {
+        } else if let Some(counts_line) = at2::counts_line(&lines).filter(|line| !table::follows(name, &lines[*line..])) {
             at2::read(name, &lines, counts_line)?
         } else {
             table::read(name, &lines, options)?

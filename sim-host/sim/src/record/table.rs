@@ -6,7 +6,7 @@ use super::contents::{Contents, Format, Header, StatedStep, bad_field, header_un
 use super::error::RecordError;
 use super::number::{append_numbers, column_resolution, last_digit};
 use super::text::comment;
-use super::units::{StatedUnits, Units, stated_in};
+use super::units::{StatedUnits, Units, said_in, stated_in};
 use super::warning::Warning;
 use super::{Component, ReadOptions, resample, time_axis};
 
@@ -28,6 +28,11 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// Whether every row has several numbers.
+    fn have_columns(&self) -> bool {
+        (0..self.starts.len()).all(|row| self.row(row).len() > 1)
+    }
+
     fn row(&self, row: usize) -> &[f64] {
         let end = self.starts.get(row + 1).map_or(self.values.len(), |next| next.1);
         self.starts.get(row).and_then(|start| self.values.get(start.1..end)).unwrap_or(&[])
@@ -54,6 +59,17 @@ fn rows<'a>(name: &str, lines: &[&'a str]) -> Result<Rows<'a>, RecordError> {
     Ok(rows)
 }
 
+/// Whether what stands behind the words NPTS, in the first of `lines`, is a table and not the samples of one history: a line names its
+/// columns, or there are as many rows as samples, of several numbers each.
+pub(super) fn follows(name: &str, lines: &[&str]) -> bool {
+    let Ok(rows) = rows(name, lines) else { return false };
+    // `ACCELERATION IN UNITS OF G` has five words, and rows of AT2 files five samples.
+    let behind = rows.header.iter().skip(1).map(|(_, line)| *line).filter(|line| said_in(line).is_none());
+    let mut names = behind.filter_map(|line| columns::in_line(line, rows.row(0).len()));
+    let named = names.any(|names| names.len() > 1 && names.iter().any(|name| is_time(name) || is_acceleration(name)));
+    named || (stated_counts(&rows).0 == Some(rows.starts.len() as u64) && rows.have_columns())
+}
+
 /// Reads the lines of a text with columns.
 pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<Contents, RecordError> {
     let mut rows = rows(name, lines)?;
@@ -71,7 +87,8 @@ pub(super) fn read(name: &str, lines: &[&str], options: &ReadOptions) -> Result<
     if let Some((line, names)) = &columns.names {
         reject_spectra(name, names, *line)?;
     }
-    let mut contents = if columns.are_one_history() {
+    let row_each = header.samples == Some(rows.starts.len() as u64) && rows.have_columns();
+    let mut contents = if columns.are_one_history() && !row_each {
         let mut contents = Contents::new(Format::Values);
         let (line, column) =
             columns.names.as_ref().map_or((0, ""), |(line, names)| (*line, names.first().copied().unwrap_or_default()));

@@ -71,6 +71,39 @@ fn no_sample_is_lost_where_line_ends_are_mixed() {
 }
 
 #[test]
+fn a_table_with_npts_in_its_header_stays_a_table() {
+    let (times, values) = ([0.0, 0.01, 0.02, 0.03], [0.0, 0.1, -0.2, 0.05]);
+    let rows: String = times.iter().zip(values).map(|(time, value)| format!("{time} {value}\n")).collect();
+    let comma = rows.replace(' ', ",");
+    for text in [
+        format!("Station X\nNPTS = 4, DT = 0.01\nTime (s),Acceleration (g)\n{comma}"),
+        format!("Station X\nNPTS: 9  DT: 0.01\nUnits: g\nTime Acc\n{rows}"),
+        format!("PEER\nEvent, 1/1/1999, ST, 90\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n{rows}"),
+    ] {
+        let record = plain(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!((record.format, record.time_step_s, record.units), (Format::Table, 0.01, Units::StandardGravity), "{text}");
+        assert_eq!(record.acceleration_m_s2, values.map(|value| value * 9.80665), "{text}");
+    }
+    // Components without times.
+    for header in
+        ["NPTS = 3, DT = 0.005, units g\nacc_ns,acc_ew\n", "NPTS = 3, DT = 0.005, units g\n", "# NPTS = 3, DT = 0.005, units g\n"]
+    {
+        let text = format!("{header}0.1,0.4\n0.3,0.5\n0.2,-0.6\n");
+        assert!(matches!(plain(&text), Err(RecordError::Component { .. })), "{header}");
+        let record = read(&text, &ReadOptions { component: Some("2".into()), ..ReadOptions::default() }).unwrap();
+        assert_eq!(
+            (record.time_step_s, record.acceleration_m_s2),
+            (0.005, [0.4, 0.5, -0.6].map(|value| value * 9.80665).to_vec())
+        );
+    }
+    // Five samples a row behind five words, and a last line that is short.
+    for unit in ["ACCELERATION IN UNITS OF G\n", "units of g\n"] {
+        let record = plain(&format!("PEER\nE\nNPTS= 7, DT= .01 SEC\n{unit}.1 .2 .3 .4 .5\n.6 .7\n")).unwrap();
+        assert_eq!((record.format, record.acceleration_m_s2.len()), (Format::PeerAt2, 7), "{unit}");
+    }
+}
+
+#[test]
 fn a_remark_does_not_overrule_the_units_and_two_remarks_state_none() {
     let units = |header: &str| plain(&format!("# DT = 0.02\n{header}1\n2\n3\n")).map(|record| record.units);
     let (said, remark) = ("# units: cm/s2\n", "# PGA 0.300 (g)\n");
