@@ -10,13 +10,14 @@ use super::text::comment;
 ///
 /// # Errors
 ///
-/// [`RecordError::DecimalCommas`] where commas seem to be decimal marks, but cannot be distinguished from commas between fields.
+/// [`RecordError::DecimalCommas`] where commas seem to be decimal marks, but cannot be distinguished from commas between fields, or points
+/// stand beside them (`1.234,5`).
 pub(super) fn with_points(name: &str, lines: &[&str]) -> Result<Option<Vec<String>>, RecordError> {
     let (mut first_comma, mut parted, mut all_decimal, mut leading_zero) = (None, false, true, false);
     for (index, line) in lines.iter().enumerate().filter(|(_, line)| is_numbers(line)) {
         let fields = || line.split([' ', '\t', ';', '"']).filter(|field| !field.is_empty() && !is_date(field));
         if fields().any(|field| field.contains('.')) {
-            return Ok(None);
+            return beside_points(name, lines);
         }
         for (number, field) in fields().enumerate() {
             parted |= number > 0;
@@ -37,6 +38,26 @@ pub(super) fn with_points(name: &str, lines: &[&str]) -> Result<Option<Vec<Strin
         (true, false, _) | (false, _, true) => Err(refused()),
         (false, _, false) => Ok(None),
     }
+}
+
+/// Lines of which a number has a point: their commas part fields, unless semicolons or tabs do.
+fn beside_points(name: &str, lines: &[&str]) -> Result<Option<Vec<String>>, RecordError> {
+    let parted = |line: &str| line.trim_end_matches([';', ' ', '\t']).contains([';', '\t']);
+    let decimal = |line: &str| {
+        line.contains(',')
+            && parted(line)
+            && is_numbers(line)
+            && line.split([';', '\t']).any(|field| is_grouped_decimal(field.trim().trim_matches('"')))
+    };
+    let first = lines.iter().position(|line| decimal(line));
+    first.map_or(Ok(None), |index| Err(RecordError::DecimalCommas { file: name.to_owned(), line: index + 1 }))
+}
+
+/// `1.234,5` and `0,5`: a decimal comma, and before it points in the place of thousands only.
+fn is_grouped_decimal(field: &str) -> bool {
+    let Some((whole, fraction)) = field.split_once(',') else { return false };
+    let grouped = whole.split('.').skip(1).all(|group| group.len() == 3);
+    grouped && !fraction.contains('.') && is_decimal(&field.replace('.', ""))
 }
 
 /// Whether a line has nothing but numbers, at least one.
@@ -123,6 +144,30 @@ mod tests {
         let error = read("time,acc\n0,00,0,0000\n0,01,0,1499\n").unwrap_err().to_string();
         assert!(error.starts_with("t.csv: line 2: decimal commas: "), "{error}");
         assert!(matches!(read("0,00, 0,0000\n0,01, 0,1499\n"), Err(RecordError::DecimalCommas { .. })));
+    }
+
+    #[test]
+    fn points_beside_decimal_commas_are_refused() {
+        for (text, line) in [
+            ("t;a\n999;999,5\n1.000;1.234,5\n", 2),
+            ("t;a\n0,000;0.0\n0,005;0,1\n", 2),
+            ("Export\n1.0\nt;a\n0,000;0,1\n0,005;-1,5E-1\n", 4),
+            ("t\ta\n1\t2\n2\t-12.345.678,5\n", 3),
+            ("t;a\n0.005;1,234\n", 2),
+        ] {
+            let error = read(text).unwrap_err();
+            assert!(matches!(error, RecordError::DecimalCommas { line: found, .. } if found == line), "{text}: {error}");
+        }
+        for text in [
+            "0.0,0.5;\n0.01,0.6;\n",
+            "0.0, 5;\n0.01, 6;\n",
+            "0.0,0.5;0.01,0.6\n",
+            "0.0;0.5\n0.01;0.6\n",
+            "0.00,5 ;\t\n0.01,6 ;\t\n",
+        ] {
+            let record = read(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            assert!(!record.warnings.contains(&Warning::DecimalCommas), "{text}");
+        }
     }
 
     #[test]

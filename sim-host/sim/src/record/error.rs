@@ -92,9 +92,9 @@ pub enum RecordError {
         /// Largest magnitude allowed (m/s²).
         limit: f64,
     },
-    /// Commas that seem to be decimal marks, where commas may part fields as well.
+    /// Commas that seem to be decimal marks, where commas may part fields as well, or beside points.
     #[error(
-        "{file}: line {line}: decimal commas: they cannot be distinguished from commas between fields; write decimal points, or part the fields by semicolons"
+        "{file}: line {line}: decimal commas: they cannot be distinguished from commas between fields, or points stand beside them; write decimal points and nothing for thousands, or part the fields by semicolons"
     )]
     DecimalCommas {
         /// File as named by the caller.
