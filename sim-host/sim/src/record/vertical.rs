@@ -1,11 +1,15 @@
 //! Which records are vertical components, by their names and headers.
 
-use super::{Record, Warning};
+use super::{Format, Record, Warning};
 
 /// Last words of the names of vertical components: PEER's UP, VER, V and DWN, Japanese UD, and Z.
 const WORDS: [&str; 12] = ["UP", "UD", "UD1", "UD2", "V", "VER", "VERT", "VERTICAL", "DWN", "DOWN", "UPDOWN", "Z"];
 /// Those that also end a longer word after a digit, as in `E06UP`.
-const ENDS: [&str; 4] = ["UP", "UD", "VER", "VERT"];
+const ENDS: [&str; 5] = ["UP", "UD", "VER", "VERT", "DWN"];
+/// Those that end the name of a PEER file behind the three letters of a station, as in `HECVER.AT2`.
+const ENDS_OF_STATIONS: [&str; 2] = ["VER", "DWN"];
+/// Letters of a station in such a name.
+const STATION_LETTERS: usize = 3;
 /// Those that are endings of file names, as of K-NET.
 const FILE_ENDINGS: [&str; 6] = ["UP", "UD", "UD1", "UD2", "VER", "VERT"];
 
@@ -28,7 +32,7 @@ impl Record {
         }
         let file = self.name.split('#').next().unwrap_or_default();
         let file = file.rsplit(['/', '\\']).next().unwrap_or_default();
-        let of_title = || self.header.title.split(';').find_map(of_header);
+        let of_title = || self.header.title.split(';').find_map(|line| of_header(line, self.format == Format::PeerAt2));
         of_name(file).map(|word| format!("{word} in its name")).or_else(|| of_title().map(|word| format!("{word} in its header")))
     }
 }
@@ -45,21 +49,30 @@ fn of_name(file: &str) -> Option<String> {
         return Some(ending);
     }
     // Endings upon endings: `CHY101-V.AT2.g3`.
+    let peer = file.to_ascii_uppercase().contains(".AT2");
     let stem = stem.rsplit_once('.').filter(|(_, inner)| inner.eq_ignore_ascii_case("AT2")).map_or(stem, |(stem, _)| stem);
     let last = words(stem).last()?;
     let single = words(stem).count() == 1;
     let after_digit = |end: &&&str| last.strip_suffix(**end).is_some_and(|rest| rest.ends_with(|c: char| c.is_ascii_digit()));
+    let of_station = |end: &&&str| {
+        let station = last.strip_suffix(**end);
+        station.is_some_and(|station| station.len() == STATION_LETTERS && station.chars().all(|c| c.is_ascii_alphabetic()))
+    };
     let of_channel = || last.len() == 3 && last.ends_with('Z') && matches!(last.as_bytes()[1], b'H' | b'L' | b'N' | b'G');
     // A whole name such as `z.csv` or `v.txt` is anything.
     let whole = WORDS.contains(&last.as_str()) && !(single && last.len() == 1);
-    let end = || ENDS.iter().find(after_digit).map(|end| (*end).to_owned());
+    let station = || ENDS_OF_STATIONS.iter().filter(|_| peer).find(of_station);
+    let end = || ENDS.iter().find(after_digit).or_else(station).map(|end| (*end).to_owned());
     if whole { Some(last) } else { end().or_else(|| of_channel().then(|| last.clone())) }
 }
 
-/// The last part of a header line such as `Northridge-01, 1/17/1994, Rinaldi Receiving Sta, UP`.
-fn of_header(line: &str) -> Option<String> {
+/// The last part of a header line such as `Northridge-01, 1/17/1994, Rinaldi Receiving Sta, UP`; of a PEER file, where components stand
+/// there, also a letter alone or before the agency: `TCU065, V (CWB)`.
+fn of_header(line: &str, of_peer: bool) -> Option<String> {
     let (_, last) = line.rsplit_once(',')?;
-    words(last).next().filter(|word| WORDS.contains(&word.as_str()) && word.len() > 1)
+    let whole = last.split('(').next().unwrap_or(last).trim();
+    let word = words(last).next().filter(|word| WORDS.contains(&word.as_str()))?;
+    (word.len() > 1 || (of_peer && whole.len() == 1)).then_some(word)
 }
 
 #[cfg(test)]
@@ -85,6 +98,11 @@ mod tests {
             "H-E06UP.csv",
             "kobe-vert.dat",
             "site12_z.csv",
+            "G02DWN.csv",
+            "LOMAP/G02DWN.AT2",
+            "RSN1787_HECTOR_HECVER.AT2",
+            "HECVER.AT2",
+            "H-CPEDWN.at2",
         ] {
             assert!(is_vertical(name, TABLE), "{name}");
         }
@@ -93,6 +111,9 @@ mod tests {
             "group.csv",
             "cloud.csv",
             "RIVER.txt",
+            "RIVER.AT2",
+            "DENVER.csv",
+            "VANCOUVER.AT2",
             "CHY101-N.AT2",
             "v.csv",
             "Z/kobe.csv",
@@ -111,6 +132,14 @@ mod tests {
         assert!(
             is_vertical("1.AT2", &header("UP")) && is_vertical("1.AT2", &header("VERT")) && !is_vertical("1.AT2", &header("228"))
         );
+        for component in ["V", "Z", "v", "V (CWB)", "DWN"] {
+            assert!(is_vertical("1.AT2", &header(component)), "{component}");
+        }
+        for component in ["V Sta", "Z 090", "N", "Sta. V 12", "(V)"] {
+            assert!(!is_vertical("1.AT2", &header(component)), "{component}");
+        }
+        // Elsewhere the last part may be anything.
+        assert!(!is_vertical("1.csv", &format!("# Site 4, V\n{TABLE}")));
         let table = "t,acc_ew_g,acc_up_g\n0,0,0\n0.01,0.1,0.2\n0.02,0,0\n";
         let of = |component: &str| {
             let options = ReadOptions { component: Some(component.into()), ..ReadOptions::default() };
