@@ -114,5 +114,5 @@ fn rounded_steps_are_found_and_cured_by_the_true_one() {
     assert!(!rounded(&cured));
     let other = read(".0024", Some(0.005));
     assert_eq!(other.time_step_s, 0.0024);
-    assert!(other.warnings.contains(&Warning::TimeStepNotUsed { given_s: 0.005, stated_s: 0.0024 }));
+    assert!(other.warnings.contains(&Warning::TimeStepNotUsed { given_s: 0.005, stated_s: Some(0.0024) }));
 }

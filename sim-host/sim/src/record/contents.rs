@@ -60,7 +60,7 @@ impl StatedStep {
 pub struct Header {
     /// Title or first lines, without blanks at the ends; empty if there are none.
     pub title: String,
-    /// Stated number of samples.
+    /// Stated number of samples; none where rows of unequal steps were resampled, with which it was compared.
     pub samples: Option<u64>,
     /// Stated peak (m/s²): the largest value or the largest magnitude, files differ.
     pub peak_m_s2: Option<f64>,

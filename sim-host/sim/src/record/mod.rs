@@ -237,7 +237,9 @@ fn finish(name: &str, contents: Contents, options: &ReadOptions) -> Result<Recor
         (Some(stated), Some(given)) if stated.agrees_with(given) => given,
         (Some(stated), given) => {
             if let Some(given_s) = given {
-                warnings.push(Warning::TimeStepNotUsed { given_s, stated_s: stated.value_s });
+                // The step after resampling is none of the file's.
+                let of_file = !warnings.iter().any(|warning| matches!(warning, Warning::Resampled { .. }));
+                warnings.push(Warning::TimeStepNotUsed { given_s, stated_s: of_file.then_some(stated.value_s) });
             }
             stated.value_s
         }

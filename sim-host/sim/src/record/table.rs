@@ -283,6 +283,10 @@ fn read_columns(
             contents.start_time_s = times[0];
             contents.values = resample::linear(name, &times, &contents.values, step_s)?;
             contents.header.time_step = Some(StatedStep { value_s: step_s, resolution_s: 0.0 });
+            // The rows are compared here: later there are others.
+            let (stated, present) = (contents.header.samples.take(), times.len());
+            let disagree = stated.filter(|stated| *stated != present as u64);
+            contents.warnings.extend(disagree.map(|stated| Warning::SamplesDisagree { stated, present }));
             contents.warnings.push(Warning::Resampled { from_s: rounded(unequal.mean_s), to_s: step_s });
         }
     }

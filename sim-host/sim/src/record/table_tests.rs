@@ -211,7 +211,7 @@ fn a_step_that_is_given_replaces_one_that_is_stated_only_where_it_is_near() {
     for given in [0.005, 0.0149] {
         let record = of(given);
         assert_eq!(record.time_step_s, 0.01, "{given}");
-        assert!(record.warnings.contains(&Warning::TimeStepNotUsed { given_s: given, stated_s: 0.01 }), "{given}");
+        assert!(record.warnings.contains(&Warning::TimeStepNotUsed { given_s: given, stated_s: Some(0.01) }), "{given}");
     }
 }
 
@@ -306,6 +306,19 @@ fn unequal_steps_are_an_error_and_resampled_only_on_request() {
     assert!(matches!(plain(&backwards), Err(RecordError::UnequalSteps { line: 22, .. })), "{}", message(&backwards));
     let options = ReadOptions { resample_to_s: Some(0.01), ..ReadOptions::default() };
     assert!(matches!(read(&backwards, &options), Err(RecordError::TimeNotIncreasing { line: 22, .. })));
+}
+
+#[test]
+fn warnings_of_unequal_steps_are_of_the_file_and_not_of_what_was_made_of_it() {
+    let rows = "# time_s,acc_g\n0.00,0.0\n0.01,0.1\n0.02,0.2\n0.04,0.4\n0.05,0.5\n";
+    let options = ReadOptions { resample_to_s: Some(0.005), time_step_s: Some(0.02), ..ReadOptions::default() };
+    let of = |header: &str| read(&format!("{header}{rows}"), &options).unwrap();
+    let disagrees = |record: &Record| record.warnings.iter().any(|warning| matches!(warning, Warning::SamplesDisagree { .. }));
+    let right = of("# NPTS = 5\n");
+    assert_eq!((right.acceleration_m_s2.len(), disagrees(&right)), (11, false), "{:?}", right.warnings);
+    assert!(of("# NPTS = 11\n").warnings.contains(&Warning::SamplesDisagree { stated: 11, present: 5 }));
+    let not_used = right.warnings.iter().map(ToString::to_string).find(|warning| warning.starts_with("time step"));
+    assert_eq!(not_used.as_deref(), Some("time step 0.02 s not used: the file has a time column"));
 }
 
 #[test]

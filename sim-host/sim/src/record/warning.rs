@@ -112,8 +112,8 @@ pub enum Warning {
     TimeStepNotUsed {
         /// Step given (s).
         given_s: f64,
-        /// Step of the file (s).
-        stated_s: f64,
+        /// Step of the file (s); none if it has a time column with unequal ones.
+        stated_s: Option<f64>,
     },
     /// The first column of the file counts its rows and was left out.
     RowNumbers,
@@ -173,8 +173,11 @@ impl fmt::Display for Warning {
             }
             Warning::ComponentNotUsed { asked } => write!(f, "component {asked} not used: the file has one component"),
             Warning::UnitsNotUsed { given, stated } => write!(f, "units {given} not used: the file says {stated}"),
-            Warning::TimeStepNotUsed { given_s, stated_s } => {
+            Warning::TimeStepNotUsed { given_s, stated_s: Some(stated_s) } => {
                 write!(f, "time step {given_s} s not used: the file says {stated_s} s")
+            }
+            Warning::TimeStepNotUsed { given_s, stated_s: None } => {
+                write!(f, "time step {given_s} s not used: the file has a time column")
             }
             Warning::RowNumbers => write!(
                 f,
