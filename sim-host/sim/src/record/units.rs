@@ -92,15 +92,21 @@ pub(super) enum StatedUnits {
     Unknown(String),
 }
 
-/// What one header line says by the word units: `UNITS OF G`, `units: cm/s2`.
+/// What one header line says by the word units: `UNITS OF G`, `units: cm/s2`. Where it has the word several times, as in
+/// `time units: s, acceleration units: g`, the first unit of acceleration counts.
 pub(super) fn said_in(line: &str) -> Option<StatedUnits> {
     let lower = line.to_lowercase();
-    let at = lower.find("units").map(|at| at + 5).or_else(|| lower.find("unit:").map(|at| at + 4))?;
-    let after = lower[at..].trim_start_matches([' ', '\t', ':', '=']);
+    let ends = |word: &'static str, length: usize| lower.match_indices(word).map(move |(at, _)| at + length);
+    let words = || ends("units", 5).chain(ends("unit:", 4)).map(|at| unit_at(&lower[at..])).filter(|word| !word.is_empty());
+    let known = words().find_map(Units::from_spelling).map(StatedUnits::Known);
+    known.or_else(|| words().next().map(|word| StatedUnits::Unknown(word.chars().take(40).collect())))
+}
+
+/// The word behind `units`: `cm/s2` of `: cm/s2, …`.
+fn unit_at(text: &str) -> &str {
+    let after = text.trim_start_matches([' ', '\t', ':', '=']);
     let after = ["of ", "in ", "are ", "is "].iter().find_map(|word| after.strip_prefix(word)).unwrap_or(after);
-    let word = after.trim_start().split([' ', '\t', ',', ';']).next().unwrap_or("");
-    let known = Units::from_spelling(word).map(StatedUnits::Known);
-    known.or_else(|| (!word.is_empty()).then(|| StatedUnits::Unknown(word.chars().take(40).collect())))
+    after.trim_start().split([' ', '\t', ',', ';']).next().unwrap_or("")
 }
 
 /// Looks for units in one header line: [by the word](said_in), or `Acceleration (m/s^2)`, `acc_g`, a bare `cm/sec/sec`.
@@ -181,6 +187,9 @@ mod tests {
         assert_eq!(stated_in("# time_s,acc_g"), known(Units::StandardGravity));
         assert_eq!(stated_in("Time (s), Acceleration (cm/s^2)"), known(Units::CentimetrePerSecondSquared));
         assert_eq!(stated_in("t a_total in m/s2"), known(Units::MetrePerSecondSquared));
+        assert_eq!(stated_in("time units: s, acceleration units: g"), known(Units::StandardGravity));
+        assert_eq!(stated_in("Unit: cm/s2 (time unit: s)"), known(Units::CentimetrePerSecondSquared));
+        assert_eq!(stated_in("time units: s, displacement units: cm"), Some(StatedUnits::Unknown("s".into())));
         assert_eq!(stated_in("units: furlong"), Some(StatedUnits::Unknown("furlong".into())));
         assert_eq!(stated_in("LOMA PRIETA 1989, station g"), None);
         assert_eq!(stated_in("acc_mm_s2"), known(Units::MillimetrePerSecondSquared));
