@@ -3,7 +3,10 @@
 //! A warning is a hint for a person: nothing is changed. The thresholds were set on the physics below and confirmed on
 //! 228 genuine records, of which few raise one.
 
+use std::ops::Range;
+
 use super::intensity::{integral, peak, velocity_m_s};
+use super::number::last_digit;
 use super::{Record, STANDARD_GRAVITY_M_S2, Warning};
 
 /// A first sample above this share of the peak. Records are cut from continuous noise, but the strong part starts later.
@@ -117,22 +120,50 @@ fn clipped(record: &Record, a: &[f64], pga: f64) -> Option<Warning> {
     let largest = a.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let smallest = a.iter().copied().fold(f64::INFINITY, f64::min);
     let extreme = |value: f64| (value == largest || value == smallest) && value.abs() > CLIPPED_LEVEL * pga;
-    let mut best = (0, 0);
-    let mut start = 0;
-    for at in 0..a.len() {
-        if at > 0 && a[at] != a[at - 1] {
-            start = at;
-        }
-        if extreme(a[at]) && at + 1 - start > best.0 {
-            best = (at + 1 - start, start);
+    let (mut longest, mut start) = (0..0, 0);
+    for run in a.chunk_by(|one, next| one == next) {
+        let at = start..start + run.len();
+        start = at.end;
+        // A record that never moves from its extreme is constant, not clipped.
+        let long = run.len() >= CLIPPED_SAMPLES.max(longest.len() + 1) && run.len() < a.len();
+        if long && extreme(run[0]) && !is_rounded_top(record, a, &at) {
+            longest = at;
         }
     }
-    // A record that never moves from its extreme is constant, not clipped.
-    (best.0 >= CLIPPED_SAMPLES && best.0 < a.len()).then(|| Warning::Clipped {
-        samples: best.0,
-        time_s: record.start_time_s + best.1 as f64 * record.time_step_s,
-        value_m_s2: a[best.1],
+    (!longest.is_empty()).then(|| Warning::Clipped {
+        samples: longest.len(),
+        time_s: record.start_time_s + longest.start as f64 * record.time_step_s,
+        value_m_s2: a[longest.start],
     })
+}
+
+/// Whether the equal samples in `run` may be a smooth top in few digits. A parabola of which n samples round to one number, with q
+/// for the last digit, falls from it to the next sample by no more than ((n + 1)/(n − 1))² q.
+fn is_rounded_top(record: &Record, a: &[f64], run: &Range<usize>) -> bool {
+    let n = run.len() as f64;
+    let widening = (n + 1.0) / (n - 1.0);
+    let before = run.start.checked_sub(1).map(|at| (a[at] - a[run.start]).abs());
+    let after = a.get(run.end).map(|value| (value - a[run.start]).abs());
+    let step = before.unwrap_or(0.0).max(after.unwrap_or(0.0));
+    // Half a digit more for the rounding of the conversion to SI.
+    let digits = (widening * widening).floor() + 0.5;
+    step <= digits * printed_digit_m_s2(record, a, run)
+}
+
+/// Value of the last printed digit (m/s²) of the samples around `run`, by the most decimals among them in the units of the file.
+/// Far smaller ones may have more in print with exponents, and say nothing.
+fn printed_digit_m_s2(record: &Record, a: &[f64], run: &Range<usize>) -> f64 {
+    let unit_m_s2 = record.units.to_m_s2(1.0);
+    let level = a[run.start].abs();
+    let around = &a[run.start.saturating_sub(NEIGHBOURHOOD)..(run.end + NEIGHBOURHOOD).min(a.len())];
+    let near = around.iter().filter(|value| value.abs() >= 0.1 * level);
+    let digits = near.map(|value| {
+        // Twelve digits are without the rounding of the conversion.
+        let text = format!("{:.11e}", value / unit_m_s2);
+        let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+        last_digit(&format!("{}e{exponent}", mantissa.trim_end_matches('0')))
+    });
+    digits.fold(f64::INFINITY, f64::min) * unit_m_s2
 }
 
 fn drift(record: &Record, a: &[f64], _pga: f64) -> Option<Warning> {

@@ -71,6 +71,30 @@ fn a_clipped_top_is_found() {
     );
 }
 
+/// A pulse of 2 s at 200 Hz in the digits of `print`, of which no sample exceeds `stop`.
+fn pulse(print: impl Fn(f64) -> String, stop: f64) -> Vec<Warning> {
+    let turn = |t: f64| math::sin(std::f64::consts::PI * t);
+    let value = |t: f64| if (2.0..4.0).contains(&t) { 0.321 * turn(t) } else { 0.0 };
+    let rows: String = (0..1200).map(|row| format!("{}\n", print(value(f64::from(row) * 0.005).min(stop)))).collect();
+    let options = ReadOptions { units: Some(Units::StandardGravity), time_step_s: Some(0.005), ..ReadOptions::default() };
+    Record::parse("m.txt", rows.as_bytes(), &options).unwrap().warnings
+}
+
+#[test]
+fn a_smooth_top_in_few_digits_is_not_clipped() {
+    let clipped = |found: &[Warning]| found.iter().any(|warning| matches!(warning, Warning::Clipped { .. }));
+    for decimals in 2..7 {
+        assert!(!clipped(&pulse(|value| format!("{value:.decimals$}"), 1.0)), "{decimals}");
+    }
+    for decimals in 2..5 {
+        assert!(!clipped(&pulse(|value| format!("{value:.decimals$e}"), 1.0)), "{decimals}");
+    }
+    for decimals in 4..7 {
+        assert!(clipped(&pulse(|value| format!("{value:.decimals$}"), 0.3)), "{decimals}");
+        assert!(clipped(&pulse(|value| format!("{value:.decimals$e}"), 0.3)), "{decimals}");
+    }
+}
+
 #[test]
 fn an_offset_baseline_is_found() {
     let values: Vec<f64> = clean().into_iter().map(|value| value + 0.02).collect();
