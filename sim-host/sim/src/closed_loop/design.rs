@@ -43,17 +43,9 @@ pub struct SensorDesign {
     pub estimator: Estimator,
 }
 
-/// What delays a sensor from the motion to the reading that a tick sees, s: its low-pass (√2/ω_c for Butterworth's of second order), half
-/// of the time between readings, and its latency.
-pub(crate) fn delays(bandwidth: f64, sampling: &Sampling) -> [f64; 3] {
-    let filter = if bandwidth > 0.0 { std::f64::consts::SQRT_2 / (std::f64::consts::TAU * bandwidth) } else { 0.0 };
-    let held = if sampling.rate > 0.0 && !sampling.synchronous { 0.5 / sampling.rate } else { 0.0 };
-    [filter, held, sampling.latency]
-}
-
-/// All [`delays`] together, s.
+/// All [`Sampling::delays`] together, s.
 pub(super) fn delay(bandwidth: f64, sampling: &Sampling) -> f64 {
-    let [filter, held, latency] = delays(bandwidth, sampling);
+    let [filter, held, latency] = sampling.delays(bandwidth);
     filter + held + latency
 }
 

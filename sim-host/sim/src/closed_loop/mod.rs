@@ -3,7 +3,7 @@
 pub mod answered;
 pub mod assemble;
 pub mod decisions;
-pub(crate) mod design;
+mod design;
 pub mod disturbance;
 pub mod driver;
 pub mod failing;

@@ -7,7 +7,7 @@ use sprag_shared::control::supervisor::{Parameters, SafeState};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::GRAVITY;
 
-use super::design::{SensorDesign, delay, delays};
+use super::design::{SensorDesign, delay};
 use crate::scene::controller::{ControllerTable, SafeStateName};
 use crate::sensor::noise::output_deviation;
 use crate::sensor::{Inertial, Sampling, Suite};
@@ -87,7 +87,7 @@ pub fn supervision(
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap_or(0.0);
     let counts = lever * block.size() / encoder.resolution;
     let larger = |default: f32, value: f64| f64::from(default).max(value) as f32;
-    let [ringing, ..] = delays(block_accelerometer.bandwidth, &block_accelerometer.sampling);
+    let [ringing, ..] = block_accelerometer.sampling.delays(block_accelerometer.bandwidth);
     let shaken = 1.5 * table.shock_s + 2.0 * period + RINGING * ringing;
     let gyroscope_delay = delay(gyroscope.bandwidth, &gyroscope.sampling);
     // 0 of one that is read at once; a reading is held for as long, whoever keeps the clock.

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::error::{KeyPath, SceneError};
 use super::schema::KeyOf;
 use super::sensors::SensorsTable;
-use crate::closed_loop::design::delays;
 use crate::sensor::{MOST_UNDER_WAY, Sampling, Suite};
 
 /// Estimators.
@@ -293,7 +292,7 @@ fn check_delays(suite: &Suite, key: &KeyOf<'_>) -> Result<(), SceneError> {
         ("ground_accelerometer", ground_accelerometer.bandwidth, &ground_accelerometer.sampling),
         ("encoder", 0.0, &encoder.sampling),
     ] {
-        let [filter, held, latency] = delays(bandwidth, sampling);
+        let [filter, held, latency] = sampling.delays(bandwidth);
         let whole = filter + held + latency;
         if whole > MOST_DELAY {
             let shares = [("bandwidth_hz", bandwidth, filter), ("rate_hz", sampling.rate, held), ("latency_s", latency, latency)];

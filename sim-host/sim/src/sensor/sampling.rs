@@ -1,5 +1,7 @@
 //! When a sensor samples.
 
+use std::f64::consts::{SQRT_2, TAU};
+
 use super::random::Random;
 
 /// Two instants nearer to each other than this (s) are one: sums and products of the same periods differ by rounding.
@@ -25,6 +27,14 @@ pub struct Sampling {
 impl Sampling {
     /// Continuous and at once.
     pub const CONTINUOUS: Sampling = Sampling { rate: 0.0, synchronous: true, jitter: 0.0, latency: 0.0 };
+
+    /// What delays a sensor with a low-pass of `bandwidth` (Hz, 0 for none) from the motion to the reading that a tick sees, s: the low-pass
+    /// (√2/ω_c for Butterworth's of second order), half of the time between readings, and the latency.
+    pub fn delays(&self, bandwidth: f64) -> [f64; 3] {
+        let filter = if bandwidth > 0.0 { SQRT_2 / (TAU * bandwidth) } else { 0.0 };
+        let held = if self.rate > 0.0 && !self.synchronous { 0.5 / self.rate } else { 0.0 };
+        [filter, held, self.latency]
+    }
 }
 
 /// The instants, one after the other.
