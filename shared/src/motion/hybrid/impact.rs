@@ -88,7 +88,8 @@ impl<S: Real> HybridSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
-        let ScaledParameters { inertance, rack_coupling, load_friction, .. } = self.transmission.parameters;
+        let ScaledParameters { inertance, rack_coupling, rack_dry, bearing_dry, load_friction, .. } =
+            self.transmission.parameters;
         let traits = self.transmission.traits();
         // There clutches stay as they are while such a block is on one side.
         let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
@@ -96,7 +97,8 @@ impl<S: Real> HybridSystem<S> {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
             let lifted = if carried { self.sets_out(standing, side, standing.ground) } else { *standing };
-            let held = -self.breakaway(&lifted, side, side).at(standing.ground);
+            // What holds the block without dry friction, which acts against either way of motion.
+            let held = -self.breakaway(&lifted, side, side).at(standing.ground) - arm * self.standing_dry(&lifted, side);
             let over = |inward: bool| {
                 let engaged = match carried {
                     true => S::count(lifted.device.locked()),
@@ -109,7 +111,9 @@ impl<S: Real> HybridSystem<S> {
                 // Outward the flywheel drives the rack.
                 let load = if inward { load_friction } else { -load_friction };
                 let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
-                (held / inertia).larger(S::EPSILON * S::EPSILON)
+                let dry = arm * (rack_dry + inertance * bearing_dry * (S::ONE + load));
+                let force = if inward { held - dry } else { held + dry };
+                (force / inertia).larger(S::EPSILON * S::EPSILON)
             };
             (over(false), over(true))
         };

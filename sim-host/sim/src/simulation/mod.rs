@@ -13,6 +13,8 @@ mod demand_tests;
 pub mod device_run;
 pub mod drive;
 pub mod energy;
+#[cfg(all(test, feature = "effects"))]
+mod friction_tests;
 mod ideal;
 #[cfg_attr(not(feature = "effects"), path = "no_machine.rs")]
 mod machine;

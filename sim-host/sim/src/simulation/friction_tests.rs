@@ -1,0 +1,56 @@
+//! The last bounces of blocks whose devices have dry friction, which are summed in closed form.
+
+use sprag_shared::math;
+use sprag_shared::structure::block::{GRAVITY, RECTANGLE_INERTIA_RATIO};
+
+use super::{DeviceRun, simulate};
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+
+const SLENDERNESS_DEG: f64 = 15.0;
+
+/// A block of R = 1 m that is let go, with `device`.
+fn run(device: &str, rest_speed_ratio: f64) -> DeviceRun {
+    let text = format!(
+        "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG}, restitution = 0.9, initial_rotation_ratio = 0.5 }}
+        device = [{{ mass_ratio = 1.0, {device} }}]
+        run = {{ free_time_s = 20.0, rest_speed_ratio = {rest_speed_ratio:e} }}"
+    );
+    let scene = Scene::parse(&text, "scene").unwrap();
+    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+}
+
+const INERTER: &str = "kind = 'inerter', kinematics = 'consistent'";
+
+#[test]
+fn the_rest_threshold_does_not_show_beside_dry_friction() {
+    for device in [
+        format!("{INERTER}, rack = {{ dry_friction_ratio = 0.1 }}"),
+        format!("{INERTER}, flywheel = {{ dry_deceleration_m_s2 = 1.0 }}"),
+        format!("{INERTER}, flywheel = {{ dry_deceleration_m_s2 = 1.5 }}, rack = {{ load_friction = 0.5 }}"),
+        "kind = 'clutched-pair', engagement = 'rigid', flywheel = { brake_deceleration_m_s2 = 'instant' }, rack = { dry_friction_ratio = 0.1 }"
+            .to_owned(),
+    ] {
+        let [followed, summed @ ..] = [1e-12, 1e-6, 1e-4, 1e-2].map(|speed| run(&device, speed));
+        for run in summed {
+            assert_eq!(run.impacts, followed.impacts, "{device}");
+            assert!((run.end_time_s / followed.end_time_s - 1.0).abs() < 2e-3, "{device}: {} {}", run.end_time_s, followed.end_time_s);
+        }
+    }
+}
+
+/// Outward the flywheel drives the rack, so that the friction μ of the mesh takes from the bearings what it adds inward:
+/// (λ + (1 − μ) σ ℓ²) θ̈ = g sin α/R + (1 − μ) σ d ℓ/R at θ = 0, which is the largest of the last swings.
+#[test]
+fn the_peak_acceleration_of_the_last_bounces_has_the_friction_of_the_way_out() {
+    let (mesh, drag) = (0.5, 0.8);
+    let device = format!("{INERTER}, flywheel = {{ dry_deceleration_m_s2 = {drag} }}, rack = {{ load_friction = {mesh} }}");
+    let alpha = SLENDERNESS_DEG.to_radians();
+    let (sine, lever) = (math::sin(alpha), math::cos(alpha));
+    let inertia = RECTANGLE_INERTIA_RATIO + (1.0 - mesh) * lever * lever;
+    let largest = (GRAVITY * sine + (1.0 - mesh) * drag * lever) / inertia / (GRAVITY / RECTANGLE_INERTIA_RATIO * alpha);
+    for speed in [1e-9, 1e-4] {
+        let found = run(&device, speed).peak_acceleration.unwrap();
+        assert!((found / largest - 1.0).abs() < 3e-3, "{found} for {largest}");
+    }
+}
