@@ -58,11 +58,10 @@ pub fn pinion(force_n: f64, has_clutch: bool, basis: &Basis) -> Option<Pinion> {
     MODULES_MM.into_iter().map(of_module).find(|pinion| pinion.stress_mpa <= basis.allowable_stress_mpa)
 }
 
-/// Teeth of a rack whose terminals travel by `travel_m` to either side: those of the travel, and two beyond each end, where the pinion
-/// meshes.
+/// Teeth of a rack that travels by `travel_m` from end to end: those of the travel, and two beyond each end, where the pinion meshes.
 pub fn rack_teeth(travel_m: f64, module_mm: f64) -> f64 {
     let pitch_m = 1e-3 * std::f64::consts::PI * module_mm;
-    (2.0 * travel_m / pitch_m).ceil() + 4.0
+    (travel_m / pitch_m).ceil() + 4.0
 }
 
 #[cfg(test)]
@@ -94,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_rack_covers_its_travel() {
-        // 2 · 0.1 m over a pitch of 15.7 mm are 12.7 teeth.
-        assert_eq!(rack_teeth(0.1, 5.0), 17.0);
+        // 0.2 m over a pitch of 15.7 mm are 12.7 teeth.
+        assert_eq!(rack_teeth(0.2, 5.0), 17.0);
     }
 }

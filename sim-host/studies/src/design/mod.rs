@@ -20,3 +20,5 @@ pub mod standard;
 pub mod study;
 pub mod subject;
 pub mod table;
+#[cfg(test)]
+mod tests;

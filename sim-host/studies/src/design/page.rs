@@ -67,6 +67,9 @@ fn of_device(problem: &Problem<'_>, list: &PartsList) -> String {
     if !list.overturned_by.is_empty() {
         text += "Parts are sized for the time before the fall.\n";
     }
+    if list.sets > 1 {
+        text += "One set of parts stands at each base corner and works while its corner is up, so that its rack only rises: buy this list twice.\n";
+    }
     text += &format!("\n{}", lines(list).markdown());
     if let Some(sensors) = &list.sensors {
         let suites = sensors.suites.join(", ");

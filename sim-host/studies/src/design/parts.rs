@@ -69,6 +69,8 @@ pub struct Sizing<'a> {
     pub asked: &'a [Option<Asked>],
     /// The design basis.
     pub basis: &'a Basis,
+    /// Sets of the parts: two for a rack at each base corner, which rises only.
+    pub sets: usize,
     /// Mass of the block, kg.
     pub mass_kg: f64,
     /// The pinion.
@@ -122,6 +124,10 @@ impl Sizing<'_> {
         let travel = travel.map(|travel| travel.or_larger(built(|built| &built.travel_m)));
         let drive = found(&|asked| asked.located.drive);
         let mut list = List::default();
+        let at_corners = self.sets > 1;
+        if at_corners {
+            list.follows("all parts", "sets, one at each base corner", "", Some(self.sets as f64));
+        }
 
         let with_margin = |series: &[f64], needed: &Option<Largest>| {
             needed.as_ref().map(|needed| preferred(series, basis.margin * needed.value)).filter(|size| size.is_finite())
@@ -131,8 +137,9 @@ impl Sizing<'_> {
         let slips_at = if self.slips { preferred(&R10, pinion.load_n) } else { 0.0 };
         let chosen_support = with_margin(&R10, &support).map(|force| force.max(slips_at));
         list.sized("support", "force", "N", support.as_ref(), chosen_support);
-        list.sized("rack", "travel to each side", "m", travel.as_ref(), chosen_travel);
-        let teeth = chosen_travel.map(|travel| rack_teeth(travel, pinion.module_mm));
+        let (of_travel, sides) = if at_corners { ("travel upwards", 1.0) } else { ("travel to each side", 2.0) };
+        list.sized("rack", of_travel, "m", travel.as_ref(), chosen_travel);
+        let teeth = chosen_travel.map(|travel| rack_teeth(sides * travel, pinion.module_mm));
         list.follows("rack", "teeth", "", teeth);
         list.follows("rack", "toothed length", "m", teeth.map(|teeth| 1e-3 * std::f64::consts::PI * pinion.module_mm * teeth));
 

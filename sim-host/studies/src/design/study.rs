@@ -3,6 +3,7 @@
 use serde::Serialize;
 use sprag_shared::observers::checks::Extreme;
 use sprag_shared::structure::block::GRAVITY;
+use sprag_shared::structure::mount::Mount;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::device::Kind;
@@ -40,7 +41,9 @@ pub struct Problem<'a> {
 pub struct PartsList {
     /// Name of the device.
     pub device: String,
-    /// Number of flywheels.
+    /// Sets of the parts in the list: one at each base corner there, of which the raised one works, and one elsewhere.
+    pub sets: usize,
+    /// Number of flywheels, of all sets.
     pub flywheels: usize,
     /// Inertance of each, kg.
     pub inertance_kg: f64,
@@ -161,14 +164,15 @@ impl<'a> Problem<'a> {
         let drive = largest(motions, &asked, |asked| asked.located.drive).filter(|drive| drive.value > 0.0);
         let Some(drive) = drive else { return Err(DesignError::NeverRocks { device }) };
         let force_n = drive.value * weight;
-        let flywheels = if scene.file.device[index].kind == Kind::ClutchedPair { 2 } else { 1 };
+        let has_clutches = scene.file.device[index].kind == Kind::ClutchedPair;
+        let sets = if let Mount::BaseCorners { .. } = scene.devices[index].device.mount { 2 } else { 1 };
         let no_gear = || DesignError::NoGear {
             device: device.clone(),
             force_n,
             teeth: basis.teeth,
             allowable_mpa: basis.allowable_stress_mpa,
         };
-        let chosen = pinion(force_n, flywheels == 2, basis).ok_or_else(no_gear)?;
+        let chosen = pinion(force_n, has_clutches, basis).ok_or_else(no_gear)?;
         // Changed scenes have this device alone.
         let in_words = |error: SceneError| error.to_string().replacen("device.0.", &format!("device.{index}."), 1);
         let (mut delay, mut delay_unknown, mut built, mut built_unknown) = (None, None, None, None);
@@ -205,6 +209,7 @@ impl<'a> Problem<'a> {
             motions,
             asked: &asked,
             basis,
+            sets,
             mass_kg: self.mass_kg,
             pinion: &chosen,
             disc: &disc,
@@ -220,7 +225,8 @@ impl<'a> Problem<'a> {
         let followed = asked.iter().flatten();
         let named = motions.iter().zip(&asked).filter(|(_, asked)| overturned(asked));
         Ok(PartsList {
-            flywheels,
+            sets,
+            flywheels: if has_clutches { 2 * sets } else { sets },
             inertance_kg,
             controlled: bare.is_controlled(),
             motions: followed.clone().count(),

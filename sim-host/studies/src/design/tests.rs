@@ -1,0 +1,53 @@
+//! Lists of devices under one pulse.
+
+use std::f64::consts::PI;
+
+use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::Scene;
+
+use super::basis::Basis;
+use super::page::page;
+use super::study::{PartsList, Problem};
+use crate::sensitivity::motion::StudyMotion;
+
+const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
+
+/// The list of the only device, of `kind` and with `keys`, of a pier of 10 t, and its page.
+fn designed(kind: &str, keys: &str) -> (PartsList, String) {
+    let text = format!(
+        "block = {{ size_m = 2.0, slenderness_deg = 10.0, mass_kg = 1e4 }}\n\
+         device = [{{ kind = '{kind}', mass_ratio = 0.5, {keys} }}]\n\
+         ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 4.0 }}]"
+    );
+    let scene = Scene::parse(&text, "scene").unwrap();
+    let motions = [StudyMotion::own(&scene).unwrap().unwrap()];
+    let problem = Problem::new(&scene, &[], Basis::default()).unwrap();
+    let mut findings = problem.solve(&motions, &Interrupt::default(), &|_| (), &|| ()).unwrap();
+    let page = page(&problem, &findings, motions.len(), 0);
+    (findings.lists.remove(0), page)
+}
+
+fn chosen(list: &PartsList, part: &str, quantity: &str) -> Option<f64> {
+    list.items.iter().find(|item| (item.part, item.quantity) == (part, quantity))?.chosen
+}
+
+/// Figure 3a: each corner has an inerter or a pair of its own, whose rack only rises.
+#[test]
+fn a_device_at_the_base_corners_is_there_twice() {
+    for (kind, of_a_set) in [("inerter", 1), ("clutched-pair", 2)] {
+        let (list, page) = designed(kind, CORNERS);
+        assert_eq!((list.sets, list.flywheels), (2, 2 * of_a_set), "{kind}");
+        assert_eq!(chosen(&list, "all parts", "sets, one at each base corner"), Some(2.0));
+        assert!(page.contains("buy this list twice"), "{page}");
+        let rises = chosen(&list, "rack", "travel upwards").unwrap();
+        let teeth = (rises / (1e-3 * PI * list.pinion.module_mm)).ceil() + 4.0;
+        assert_eq!(chosen(&list, "rack", "teeth"), Some(teeth));
+
+        let (list, page) = designed(kind, "mount = 'centre-of-mass'");
+        assert_eq!((list.sets, list.flywheels), (1, of_a_set), "{kind}");
+        assert!(!page.contains("twice"), "{page}");
+        let to_each_side = chosen(&list, "rack", "travel to each side").unwrap();
+        let teeth = (2.0 * to_each_side / (1e-3 * PI * list.pinion.module_mm)).ceil() + 4.0;
+        assert_eq!(chosen(&list, "rack", "teeth"), Some(teeth));
+    }
+}
