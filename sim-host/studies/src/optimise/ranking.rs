@@ -72,7 +72,9 @@ impl Ranking {
         let rival = |(design, row): (&Design, Row)| {
             let overturning = overturning(problem, best, design)?;
             let sure = overturning.is_sure(bootstrap.level);
-            let rotations = differences(best, design, problem.motions.len(), log_rotation);
+            let rotations = sums(best, design, problem.motions.len(), log_rotation);
+            let rotations: Vec<Option<f64>> =
+                rotations.into_iter().map(|pair| pair.map(|(sum, count)| sum / f64::from(count))).collect();
             let outcomes = |design: &Design| -> Vec<Option<bool>> {
                 design.responses.iter().map(|response| Some(response.as_ref().ok()?.outcome.overturned())).collect()
             };
@@ -107,8 +109,8 @@ fn without_event(problem: &Problem<'_>) -> usize {
 /// Share of the motions that overturn `other` less that of `best`.
 pub(super) fn overturning(problem: &Problem<'_>, best: &Design, other: &Design) -> Option<Paired> {
     let shares = |best: &Response, other: &Response| Some(overturned(other) - overturned(best));
-    let found = differences(best, other, problem.motions.len(), shares);
-    problem.groups().paired(&found, problem.choices.study.bootstrap)
+    let found = sums(best, other, problem.motions.len(), shares);
+    problem.groups().paired_repeatedly(&found, problem.choices.study.bootstrap)
 }
 
 fn overturned(response: &Response) -> f64 {
@@ -121,12 +123,12 @@ fn log_rotation(best: &Response, other: &Response) -> Option<f64> {
     Some(ln(peak(other)? / peak(best)?))
 }
 
-/// What `of` makes of both designs under each of so many `motions`, in the mean of what it can be made of.
-fn differences(best: &Design, other: &Design, motions: usize, of: fn(&Response, &Response) -> Option<f64>) -> Vec<Option<f64>> {
+/// What `of` makes of both designs under each of so many `motions`: its sum over the specimens, and the number of those that it can be made of.
+fn sums(best: &Design, other: &Design, motions: usize, of: fn(&Response, &Response) -> Option<f64>) -> Vec<Option<(f64, u32)>> {
     let under = |motion: usize| {
         let pairs = best.responses.iter().zip(&other.responses).skip(motion).step_by(motions);
         let found: Vec<f64> = pairs.filter_map(|(best, other)| of(best.as_ref().ok()?, other.as_ref().ok()?)).collect();
-        (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
+        (!found.is_empty()).then(|| (found.iter().sum(), found.len() as u32))
     };
     (0..motions).map(under).collect()
 }
