@@ -50,6 +50,8 @@ pub struct Checks<S> {
     impulses: Impulses<S>,
     /// The support moves otherwise than the ground.
     on_support: bool,
+    /// Open clutches pass forces too.
+    drags: bool,
     /// The first quantity that is looked at.
     first: usize,
     /// The travel of the terminals is looked at.
@@ -73,6 +75,7 @@ impl<S: Real> Checks<S> {
             toe: Toe::new(block, geometry, mount, account)?,
             impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
             on_support: account.on_support,
+            drags: account.drags,
             first: 0,
             travels: true,
             up_to_slenderness: None,
@@ -91,7 +94,7 @@ impl<S: Real> Checks<S> {
     }
 
     /// Largest force of both flywheels together on their support so far, as a snapshot has it; |F|/(λmR), 1/s². None where none was ever
-    /// engaged.
+    /// engaged, or dragged along.
     pub fn largest_support_force(&self) -> Option<S> {
         self.report.support.map(|largest| largest.value / self.toe.over_weight(S::ONE))
     }
@@ -139,7 +142,8 @@ impl<S: Real> Checks<S> {
     /// that of three looks one shows more than half of what lies between; and where a parabola through them also meets a fourth, no
     /// more lies between than they and its curvature show.
     fn may_press_harder(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> bool {
-        let Some(record) = self.report.support.filter(|_| interval.engaged) else { return interval.engaged };
+        let presses = interval.engaged || self.drags;
+        let Some(record) = self.report.support.filter(|_| presses) else { return presses };
         let force = |share: S| {
             let time = interval.from + share * (interval.to - interval.from);
             self.toe.over_weight(output.snapshot(time).support_force())

@@ -55,6 +55,8 @@ pub struct Account {
     pub rack_riding: f64,
     /// The support moves otherwise than the ground.
     pub on_support: bool,
+    /// Open clutches drag, so that they pass forces too.
+    pub drags: bool,
 }
 
 /// Observer that sums the [`Entries`] of a motion.

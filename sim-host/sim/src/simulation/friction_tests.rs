@@ -1,4 +1,4 @@
-//! The last bounces of blocks whose devices have dry friction, which are summed in closed form.
+//! Blocks whose devices have friction: the last bounces, which are summed in closed form, and the force of clutches that drag.
 
 use sprag_shared::math;
 use sprag_shared::structure::block::{GRAVITY, RECTANGLE_INERTIA_RATIO};
@@ -53,4 +53,21 @@ fn the_peak_acceleration_of_the_last_bounces_has_the_friction_of_the_way_out() {
         let found = run(&device, speed).peak_acceleration.unwrap();
         assert!((found / largest - 1.0).abs() < 3e-3, "{found} for {largest}");
     }
+}
+
+/// A clutch that never closes passes the force by which it drags, whether or not somebody looks at the other forces.
+#[test]
+fn the_force_on_the_support_has_the_drag_of_open_clutches() {
+    let found = ["", "checks = {}\n"].map(|checks| {
+        let text = format!(
+            "{checks}block = {{ size_m = 2.0, slenderness_deg = 10.0 }}
+            ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 4.0 }}]
+            run = {{ free_time_s = 4.0 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid', actuation = {{ engagement_delay_s = 10.0 }},
+                flywheel = {{ brake_deceleration_m_s2 = 20.0, drag_rate_1_s = 5.0 }} }}]"
+        );
+        let scene = Scene::parse(&text, "scene").unwrap();
+        simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0).peak_force_ratio.unwrap()
+    });
+    assert!(found[0] == found[1] && (found[0] / 0.208_49 - 1.0).abs() < 1e-4, "{found:?}");
 }
