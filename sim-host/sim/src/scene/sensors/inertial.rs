@@ -42,7 +42,7 @@ pub struct GyroscopeTable {
     #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
     /// −3 dB corner; 0 (none), or from 0.1.
-    #[schemars(range(min = 0.0, max = 1e5))]
+    #[schemars(range(min = 0.0, max = 1e5), example = 500.0)]
     pub bandwidth_hz: Option<f64>,
     /// Reading per count.
     #[schemars(range(min = 0.0, max = 100.0))]
@@ -93,7 +93,7 @@ pub struct AccelerometerTable {
     #[schemars(range(min = 0.0, max = 45.0))]
     pub misalignment_deg: Option<f64>,
     /// −3 dB corner; 0 (none), or from 0.1.
-    #[schemars(range(min = 0.0, max = 1e5))]
+    #[schemars(range(min = 0.0, max = 1e5), example = 500.0)]
     pub bandwidth_hz: Option<f64>,
     /// Reading per count.
     #[schemars(range(min = 0.0, max = 1e3))]
