@@ -112,8 +112,11 @@ impl<S: Real> HybridSystem<S> {
                 let load = if inward { load_friction } else { -load_friction };
                 let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
                 let dry = arm * (rack_dry + inertance * bearing_dry * (S::ONE + load));
-                let force = if inward { held - dry } else { held + dry };
-                (force / inertia).larger(S::EPSILON * S::EPSILON)
+                if inward {
+                    ((held - dry) / inertia).larger(S::ZERO)
+                } else {
+                    ((held + dry) / inertia).larger(S::EPSILON * S::EPSILON)
+                }
             };
             (over(false), over(true))
         };

@@ -25,14 +25,16 @@ pub struct Accumulation<S> {
 }
 
 impl<S: Real> Accumulation<S> {
-    /// After an impact that leaves the block with `speed` (rad/s) towards the side whose rates (rising a₁, falling a₂; rad/s²,
-    /// above 0) are `here`, with restitution η; impacts count down to an incoming speed `counted` (rad/s).
+    /// After an impact that leaves the block with `speed` (rad/s) towards the side whose rates (rising a₁, above 0, and falling a₂, 0 where
+    /// friction holds the block at the top of a swing; rad/s²) are `here`, with restitution η; impacts count down to an incoming speed
+    /// `counted` (rad/s).
     pub fn of(here: (S, S), there: (S, S), restitution: S, speed: S, counted: S) -> Accumulation<S> {
         let largest = here.0.larger(here.1).larger(there.0).larger(there.1);
         let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         let swing = |(rising, falling): (S, S)| {
             let fall = (falling / rising).square_root();
-            (S::ONE / rising + fall / falling, fall)
+            let back = if falling > S::ZERO { fall / falling } else { S::ZERO };
+            (S::ONE / rising + back, fall)
         };
         let (here, fall_here) = swing(here);
         let (there, fall_there) = swing(there);
