@@ -97,8 +97,9 @@ impl<S: Real> HybridSystem<S> {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
             let lifted = if carried { self.sets_out(standing, side, standing.ground) } else { *standing };
+            let threshold = self.breakaway(&lifted, side, side);
             // What holds the block without dry friction, which acts against either way of motion.
-            let held = -self.breakaway(&lifted, side, side).at(standing.ground) - arm * self.standing_dry(&lifted, side);
+            let held = -threshold.at(standing.ground) - threshold.dry;
             let over = |inward: bool| {
                 let engaged = match carried {
                     true => S::count(lifted.device.locked()),

@@ -20,6 +20,8 @@ pub(super) struct Threshold<S> {
     horizontal: S,
     vertical: S,
     constant: S,
+    /// What dry friction takes from the constant.
+    pub(super) dry: S,
     /// d, the growth by the capacity of engaged plates, 1/s³.
     growth: S,
     /// e, of a support of its own motion.
@@ -58,11 +60,12 @@ impl<S: Real> Threshold<S> {
 
     /// The moment that holds where this one moves.
     pub(super) fn opposite(&self) -> Threshold<S> {
-        let Threshold { horizontal, vertical, constant, growth, support, decay: (push, rate) } = *self;
+        let Threshold { horizontal, vertical, constant, dry, growth, support, decay: (push, rate) } = *self;
         Threshold {
             horizontal: -horizontal,
             vertical: -vertical,
             constant: -constant,
+            dry: -dry,
             growth: -growth,
             support: -support,
             decay: (-push, rate),
@@ -109,32 +112,7 @@ impl<S: Real> Threshold<S> {
     }
 }
 
-/// A flywheel that a standing rack would take along.
-fn sticks<S: Real>(wheel: &FlywheelState<S>) -> bool {
-    match wheel.coupling {
-        Coupling::Locked => true,
-        Coupling::Slipping(_) => wheel.spin == S::ZERO,
-        Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
-    }
-}
-
 impl<S: Real> HybridSystem<S> {
-    /// Flywheels that are coupled to a rack that begins to move towards `sign`.
-    fn carried_along<'a>(&self, state: &'a HybridState<S>, sign: Sign) -> impl Iterator<Item = &'a FlywheelState<S>> {
-        // An overrunning clutch holds one way, and lets go the other way.
-        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
-        let holds = move |index: usize| !one_way || index == wheel_for(sign);
-        let wheels = state.device.wheels.iter().enumerate();
-        wheels.filter(move |(index, wheel)| sticks(wheel) && holds(*index)).map(|(_, wheel)| wheel)
-    }
-
-    /// Dry friction in [`HybridSystem::breakaway`], that of rack and bearings, 1/s² at the rack.
-    pub(super) fn standing_dry(&self, state: &HybridState<S>, sign: Sign) -> S {
-        let parameters = &self.transmission.parameters;
-        let add = |dry, wheel| dry + parameters.standing_friction(wheel).0 * (S::ONE + parameters.load_friction);
-        self.carried_along(state, sign).fold(parameters.rack_dry, add)
-    }
-
     /// Breakaway threshold of a block at θ̇ = 0, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of elastic clutches are taken as they are now.
     #[inline(never)]
@@ -147,14 +125,21 @@ impl<S: Real> HybridSystem<S> {
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
         let (mut push, mut support) = (parameters.rack_push, S::ZERO);
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
+        // An overrunning clutch holds one way, and lets go the other way.
+        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
+        let holds = |index: usize| !one_way || index == wheel_for(sign);
+        let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
+            Coupling::Locked => true,
+            Coupling::Slipping(_) => wheel.spin == S::ZERO,
+            Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
+        };
         let wheels = &state.device.wheels;
-        for wheel in self.carried_along(state, sign) {
+        for (_, wheel) in wheels.iter().enumerate().filter(|(index, wheel)| sticks(wheel) && holds(*index)) {
             let (friction, growth) = parameters.standing_friction(wheel);
             dry = add(dry, (friction * (S::ONE + parameters.load_friction), growth));
             push = push - parameters.support_push;
             support = support + parameters.relative_push;
         }
-        let sticks = sticks::<S>;
         let dragged = |wheel: &FlywheelState<S>| parameters.dashpot(wheel) > S::ZERO;
         let pulls = |wheel: &FlywheelState<S>| (wheel.coupling.is_engaged() || dragged(wheel)) && !sticks(wheel);
         if wheels.iter().any(pulls) {
@@ -176,6 +161,7 @@ impl<S: Real> HybridSystem<S> {
         Threshold {
             horizontal: sign.times(horizontal - arm * push),
             vertical: sign.times(vertical),
+            dry: arm * dry.0,
             constant: -(arm * dry.0) - sign.times(arm * (force.0 + decaying)),
             growth: -(arm * dry.1) - sign.times(arm * force.1),
             support: sign.times(arm * support),
