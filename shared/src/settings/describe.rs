@@ -139,33 +139,24 @@ impl fmt::Display for Line {
     }
 }
 
-const REQUIRED: [Item; 4] =
-    [Item::RequiredGyroscope, Item::RequiredBlockAccelerometer, Item::RequiredGroundAccelerometer, Item::RequiredEncoder];
+/// How a parameter is bound by another one that [`super::assemble`] or [`super::wiring`] compares it with; others must be "across" it.
+const RELATIONS: [(Item, &str); 12] = [
+    (Item::CalibrationPatience, "above"),
+    (Item::SlowContradictionTime, "no less than"),
+    (Item::ContradictionTime, "at least eight times"),
+    (Item::FrequencySquared, "the square of"),
+    (Item::LeverAcross, "such that the lever at rest is above 0 with"),
+    (Item::TemperatureLeast, "no more than"),
+    (Item::Smoothing, "above 0 with"),
+    (Item::RotationByEncoder, "such that errors die out with the other gains of"),
+    (Item::RequiredGyroscope, "true with"),
+    (Item::RequiredBlockAccelerometer, "true with"),
+    (Item::RequiredGroundAccelerometer, "true with"),
+    (Item::RequiredEncoder, "true with"),
+];
 
-/// How a parameter is bound by another one that [`super::assemble`] or [`super::wiring`] compares it with.
 fn relation(index: u16) -> &'static str {
-    let is = |item: Item| item.index() == index;
-    if is(Item::CalibrationPatience) {
-        "above"
-    } else if is(Item::SlowContradictionTime) {
-        "no less than"
-    } else if is(Item::ContradictionTime) {
-        "at least eight times"
-    } else if is(Item::FrequencySquared) {
-        "the square of"
-    } else if is(Item::LeverAcross) {
-        "such that the lever at rest is above 0 with"
-    } else if is(Item::TemperatureLeast) {
-        "no more than"
-    } else if is(Item::Smoothing) {
-        "above 0 with"
-    } else if is(Item::RotationByEncoder) {
-        "such that errors die out with the other gains of"
-    } else if REQUIRED.into_iter().any(is) {
-        "true with"
-    } else {
-        "across"
-    }
+    RELATIONS.iter().find(|(item, _)| item.index() == index).map_or("across", |(_, words)| words)
 }
 
 #[cfg(test)]
