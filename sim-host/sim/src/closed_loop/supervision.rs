@@ -67,6 +67,8 @@ pub fn supervision(
         let rate = if sensor.sampling.rate > 0.0 { sensor.sampling.rate } else { table.rate_hz };
         output_deviation(sensor.noise_density, sensor.bandwidth, rate)
     };
+    let larger = |default: f32, value: f64| f64::from(default).max(value) as f32;
+    let shaken = 1.5 * table.shock_s + 2.0 * period;
     let limits = |sensor: &Inertial, default: SensorLimits| {
         let between = independent(sensor, between_readings(&sensor.sampling, period));
         let stuck = if sensor.resolution > 0.0 {
@@ -75,20 +77,18 @@ pub fn supervision(
             0.0
         };
         SensorLimits {
-            stale_time: f64::from(default.stale_time).max(missing(&sensor.sampling, period)) as f32,
+            stale_time: larger(default.stale_time, missing(&sensor.sampling, period)),
             stuck_time: stuck,
             // Where noise does not move a reading by a step, equal readings say nothing.
             stuck_time_moving: if sensor.resolution > 0.0 { stuck } else { default.stuck_time_moving },
             full_scale: if sensor.full_scale > 0.0 { (0.98 * sensor.full_scale) as f32 } else { 1e6 },
-            saturation_time: f64::from(default.saturation_time).max(1.5 * table.shock_s + 2.0 * period) as f32,
+            saturation_time: larger(default.saturation_time, shaken),
         }
     };
     let block = &structure.block;
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap_or(0.0);
     let counts = lever * block.size() / encoder.resolution;
-    let larger = |default: f32, value: f64| f64::from(default).max(value) as f32;
     let [ringing, ..] = block_accelerometer.sampling.delays(block_accelerometer.bandwidth);
-    let shaken = 1.5 * table.shock_s + 2.0 * period + RINGING * ringing;
     let gyroscope_delay = delay(gyroscope.bandwidth, &gyroscope.sampling);
     // 0 of one that is read at once; a reading is held for as long, whoever keeps the clock.
     let encoder_delay = delay(0.0, &Sampling { synchronous: false, ..encoder.sampling });
@@ -97,7 +97,7 @@ pub fn supervision(
         monitor: MonitorParameters {
             gyroscope: limits(gyroscope, monitor.gyroscope),
             block_accelerometer: SensorLimits {
-                saturation_time: limits(block_accelerometer, monitor.block_accelerometer).saturation_time.max(shaken as f32),
+                saturation_time: larger(monitor.block_accelerometer.saturation_time, shaken + RINGING * ringing),
                 ..limits(block_accelerometer, monitor.block_accelerometer)
             },
             ground_accelerometer: SensorLimits {
