@@ -84,7 +84,7 @@ fn a_plant_need_not_stop_to_be_seen() {
             assert_eq!(time, at);
             for (one, other) in values(one).into_iter().zip(values(other)) {
                 // The shock of an impact magnifies what the length of steps does to its instant.
-                assert!((one - other).abs() < 1e-6, "{device} at {time} s: {one} and {other}");
+                assert!((one - other).abs() < 1e-7, "{device} at {time} s: {one} and {other}");
             }
         }
     }
