@@ -211,7 +211,7 @@ impl Fragility {
 
     /// The same by resampling the runs (Efron and Tibshirani 1993), as a dict: `low`, `median` and `high` of the probability at each
     /// intensity, and the share of resamples that have no curve.
-    #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = None, threads = None), text_signature = "(intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
+    #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = None, threads = None), text_signature = "($self, intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
     fn bootstrap<'py>(
         &self,
         py: Python<'py>,
