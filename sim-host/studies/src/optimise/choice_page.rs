@@ -158,7 +158,7 @@ fn how_sure(findings: &Findings, ranking: &Ranking) -> String {
             "The choice is the best of many under these motions, and so looks better than it is: motions that had no say in a choice overturn what\n\
              is chosen in {} of the cases, beside {} above.\n",
             points(left_out),
-            points(best.probability)
+            points(best.score.share())
         );
     }
     text
@@ -256,7 +256,7 @@ pub fn delay_picture(problem: &Problem<'_>, findings: &Findings) -> Result<Optio
         ..Line::default()
     };
     let choice = Line { name: device(best), points: late(|late| late.probability), marks: true, ..Line::default() };
-    let rival = level(rival_name(&budget.rival), budget.rival.probability);
+    let rival = level(rival_name(&budget.rival), budget.rival.score.share());
     let fewer = Line {
         name: "fewer than the rival".to_owned(),
         points: late(|late| late.overturning.difference),

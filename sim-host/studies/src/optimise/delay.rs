@@ -33,7 +33,7 @@ pub struct DelayBudget {
 pub struct Late {
     /// By so much, s.
     pub delay_s: f64,
-    /// Share of the motions that overturn it.
+    /// Share of the motions that overturn it; in the mean over the specimens, as the difference is.
     pub probability: f64,
     /// Share of the motions that overturn the rival less that.
     pub overturning: Paired,
@@ -106,7 +106,7 @@ impl DelayBudget {
         let of_design = |design: &Design| {
             Some(Late {
                 delay_s: design.candidate?.delay_s,
-                probability: row(design).probability,
+                probability: design.score.share(),
                 overturning: overturning(problem, design, rival)?,
                 better: is_better(problem, design, rival),
                 feasible: complete(design) && choices.limits.allow(&design.score),

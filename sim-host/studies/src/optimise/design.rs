@@ -118,6 +118,11 @@ impl Score {
         score
     }
 
+    /// Share of the motions that overturn the block, in the mean over the specimens.
+    pub fn share(&self) -> f64 {
+        self.overturned as f64 / (self.motions as f64).max(1.0)
+    }
+
     /// What it asks for of `quantity`; nothing where no motion counts, and of what the scene or the device does not have.
     pub fn asks(&self, quantity: Quantity) -> f64 {
         match quantity {

@@ -1,7 +1,9 @@
 //! `trade_off.svg`: how much less overturns for more force, and for more stroke.
 
 use sprag_report::heading::of_blocks;
-use sprag_report::plot::{FigureTitle, PlotError, TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, trade_off_figure};
+use sprag_report::plot::{
+    FigureTitle, PlotError, TradeOffFigure, TradeOffMark, TradeOffPanel, TradeOffPoint, literal, trade_off_figure,
+};
 
 use super::curve::Curve;
 use super::findings::{Findings, Row};
@@ -18,8 +20,11 @@ pub fn trade_off_picture(problem: &Problem<'_>, findings: &Findings) -> Result<S
     let choices = &problem.choices;
     let quantities =
         Quantity::TRADED.into_iter().filter(|quantity| *quantity == Quantity::Force || choices.limits.stroke.is_some());
+    let mut conditions = of_blocks(&[&choices.structure.scene]);
+    let quantile = choices.table.robust.and_then(|robust| robust.quantile);
+    conditions.extend(quantile.map(|share| literal(&format!("shares: {} quantile over the specimens", percent(share)))));
     trade_off_figure(&TradeOffFigure {
-        title: FigureTitle { text: heading(choices).to_owned(), conditions: of_blocks(&[&choices.structure.scene]) },
+        title: FigureTitle { text: heading(choices).to_owned(), conditions },
         series: choices.curves.iter().map(Curve::name).collect(),
         band: format!("{} band", percent(findings.level.value())),
         panels: quantities.map(|quantity| panel(problem, findings, quantity)).collect(),

@@ -217,12 +217,15 @@ fn front(solution: &Solution, limits: &Limits, quantity: Quantity) -> Vec<bool> 
 
 fn row(problem: &Problem<'_>, design: &Design, level: Level) -> Row {
     let score = &design.score;
-    let specimens = problem.specimens.len();
     // A motion counts once, whatever the number of specimens that it shakes.
-    let motions = (score.motions as f64 / specimens as f64).max(1.0);
-    let band = wilson(score.objective.round() as usize, score.motions / specimens, level);
-    let row = Row { candidate: design.candidate, probability: score.objective / motions, ..Row::of_score(score) };
-    let row = Row { probability_band: band.unwrap_or(row.probability_band), ..row };
+    let motions = score.motions as f64 / problem.specimens.len() as f64;
+    let of_quantile = problem.objective().quantile.map(|_| score.objective / motions.max(1.0));
+    let row = Row { candidate: design.candidate, ..Row::of_score(score) };
+    let row = Row {
+        probability: of_quantile.unwrap_or(row.probability),
+        probability_band: wilson(score.objective, motions, level).unwrap_or(row.probability_band),
+        ..row
+    };
     let Some(at) = design.candidate else {
         return Row { stroke_m: None, tooth_stress_mpa: None, feasible: complete(design), ..row };
     };
@@ -246,7 +249,7 @@ impl Row {
             motions: score.motions,
             overturned: score.overturned,
             failed: score.failed,
-            probability: score.overturned as f64 / (score.motions as f64).max(1.0),
+            probability: score.share(),
             // Of nothing nothing is known.
             probability_band: Band { low: 0.0, high: 1.0 },
             saved: score.saved,

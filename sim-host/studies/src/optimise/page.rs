@@ -71,6 +71,12 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableE
          block stands. Median θ/α: over the motions that rock the bare block, where overturning counts as infinite (a dash).\n",
         percent(findings.level.value())
     );
+    if let Some(share) = choices.table.robust.and_then(|robust| robust.quantile) {
+        page += &format!(
+            "Share, from, to: the {} quantile over the specimens. Overturned: over all specimens, whose mean it gives.\n",
+            percent(share)
+        );
+    }
     for note in &findings.notes {
         page += &format!("\n{note}\n");
     }

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use sprag_report::columns::write_csv;
+use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::device::{Kind, MountName};
 use sprag_sim::scene::drivetrain::EngagementName;
 
 use super::design::Score;
 use super::findings::{Findings, Fronts, Row};
-use super::problem::Choices;
+use super::problem::{Choices, Problem};
 use super::typed_tables::design_table;
 use crate::cloud::study::{Study, StudyError};
 use crate::statistics::Level;
@@ -166,6 +167,34 @@ fn the_price_of_a_limit_is_in_the_measure_of_the_choice() {
     assert_eq!(alike, format!("Nothing in overturning: without a limit the best device overturns under 20 % {by} too."));
     let in_the_mean = price(mean, [(4, 2.0), (2, 1.0)]);
     assert_eq!(in_the_mean, format!("Without a limit {device} would overturn under 2 of 20 motions instead of 4."));
+}
+
+/// A robust study of pulses that is made small by its worst specimen.
+const WORST: &str = "[optimise]\nlaws = ['inerter', 'clutched-pair']\nmass_ratio = { from = 0.2, to = 1.0, cells = 2 }\ndelays_s = [0.05]\n\
+                     robust = { samples = 4, restitution = 0.3, quantile = 1.0 }\n\
+                     [[optimise.pulse]]\nmotion = 'sine'\nfrequency_ratio = [2.0, 4.0]\namplitude_ratio = [1.2, 2.0, 3.0, 4.0]";
+
+/// A quantile over the specimens stands beside no mean over them.
+#[test]
+fn means_are_shown_beside_means() {
+    let study = Study::parse(WORST, "study.toml", Path::new(""), &[], &[]).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+    let found = Findings::of(&problem, &solution);
+    let best = found.best.as_ref().unwrap();
+    let mean = best.overturned as f64 / best.motions as f64;
+    assert_eq!(best.motions, 4 * 8);
+    assert!(best.probability > mean, "the worst of specimens that differ: {} and {mean}", best.probability);
+    // The band is of the share itself.
+    assert!(
+        found.rows.iter().all(|row| row.probability_band.low <= row.probability && row.probability <= row.probability_band.high)
+    );
+    assert_eq!(found.delay_budget.as_ref().unwrap().late[0].probability, mean);
+    let page = super::choice_page::choice_page(&problem, &found).unwrap();
+    let beside = format!("of the cases, beside {:.1} % above.", 100.0 * mean);
+    assert!(page.contains(&beside), "{beside}\n{page}");
+    let page = super::page::page(&problem, &found).unwrap();
+    assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
 }
 
 #[test]
