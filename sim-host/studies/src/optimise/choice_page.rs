@@ -84,8 +84,8 @@ fn why(choices: &Choices<'_>, findings: &Findings, best: &Row) -> String {
     if let (Some(robust), count) = (choices.table.robust, findings.specimens.len()) {
         let of = robust.quantile.map_or_else(|| "mean".to_owned(), |share| format!("{} quantile", percent(share)));
         let scatter = format!(
-            "\nEvery motion shakes {count} specimens, the same for every design, and counts once for each: the restitution is {} of the scene's,\n\
-             uniformly. What is made small is the {of} over the specimens.\n",
+            "\nEvery motion shakes {count} specimens, the same for every design, and counts once for each: the restitution is {} of the scene's\n\
+             but at most 1, uniformly. What is made small is the {of} over the specimens.\n",
             plus_minus(robust.restitution)
         );
         text = text.replacen("## Why\n", &format!("## Why\n{scatter}"), 1);

@@ -245,6 +245,13 @@ impl<'a> Problem<'a> {
         self.specimens.iter().map(|specimen| Subject::new(scene.clone(), driven, specimen)).collect()
     }
 
+    /// η of every specimen with a device, or bare; none where the block has none.
+    pub fn restitutions(&self, of: Option<Candidate>) -> Vec<Option<f64>> {
+        let scene = self.scene(of).ok();
+        let eta = |specimen: &Specimen| specimen.of(scene.clone()?).ok()?.structure(0).restitution().ok();
+        self.specimens.iter().map(eta).collect()
+    }
+
     fn scene(&self, of: Option<Candidate>) -> Result<Scene, String> {
         let base = &self.choices.structure.scene;
         let scene = match of {

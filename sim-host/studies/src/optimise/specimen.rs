@@ -18,8 +18,11 @@ const FIRST_STREAM: u64 = 1 << 56;
 /// What scatters, as factors on what the scene says.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Specimen {
-    /// On the restitution η, which is at most 1.
+    /// On the restitution η, as drawn. Where η(1 + width) is above 1, η lies at the same part of the range up to 1.
     pub restitution: f64,
+    /// Half-width within which that was drawn.
+    #[serde(skip)]
+    pub restitution_width: f64,
     /// On the slenderness α that a controller believes in.
     pub slenderness_belief: f64,
     /// On the size R that a controller believes in.
@@ -35,6 +38,7 @@ pub struct Specimen {
 /// Block and controller as the scene says.
 pub const NOMINAL: Specimen = Specimen {
     restitution: 1.0,
+    restitution_width: 0.0,
     slenderness_belief: 1.0,
     size_belief: 1.0,
     mass_ratio_belief: 1.0,
@@ -65,6 +69,7 @@ pub fn specimens(table: Option<&RobustTable>) -> Vec<Specimen> {
         .collect();
     let specimen = |index: usize| Specimen {
         restitution: factors[0][index],
+        restitution_width: table.restitution,
         slenderness_belief: factors[1][index],
         size_belief: factors[2][index],
         mass_ratio_belief: factors[3][index],
@@ -80,12 +85,23 @@ impl Specimen {
     /// # Errors
     /// [`ParameterError`] where the scene has no restitution of its own.
     pub fn of(&self, mut scene: Scene) -> Result<Scene, ParameterError> {
-        if self.restitution != 1.0 {
-            let eta = (self.restitution * scene.structure(0).loaded()?.restitution()?).min(1.0);
+        if self.restitution_width > 0.0 {
+            let eta = self.scattered(scene.structure(0).loaded()?.restitution()?);
             scene.restitution = Restitution::Constant(eta);
             scene.file.block.restitution = RestitutionValue::Number(eta);
         }
         Ok(scene)
+    }
+
+    /// The restitution of this specimen of a block whose own is `eta`: uniform between η(1 − w) and the smaller of η(1 + w) and 1.
+    fn scattered(&self, eta: f64) -> f64 {
+        let width = self.restitution_width;
+        if (1.0 + width) * eta <= 1.0 {
+            return self.restitution * eta;
+        }
+        let least = (1.0 - width) * eta;
+        let place = (self.restitution - (1.0 - width)) / (2.0 * width);
+        least + place * (1.0 - least)
     }
 
     /// What a controller believes that by itself believes in `belief`.
@@ -123,6 +139,20 @@ mod tests {
         assert!(all.iter().all(|one| one.size_belief == 1.0));
         assert_eq!(all, specimens(Some(&table(10, 3))));
         assert_ne!(all, specimens(Some(&table(10, 4))));
+    }
+
+    /// A specimen in each tenth of a range that 1 ends, as in each of one that stays below.
+    #[test]
+    fn restitutions_up_to_1_are_as_uniform_as_those_below() {
+        let all = specimens(Some(&table(10, 3)));
+        for (eta, most) in [(0.8, 0.96), (0.95, 1.0), (1.0, 1.0)] {
+            let least = 0.8 * eta;
+            let stratum = |one: &Specimen| (10.0 * (one.scattered(eta) - least) / (most - least)) as usize;
+            let mut strata: Vec<usize> = all.iter().map(stratum).collect();
+            strata.sort_unstable();
+            assert_eq!(strata, (0..10).collect::<Vec<usize>>(), "{eta}");
+        }
+        assert!(all.iter().all(|one| one.scattered(0.8) == one.restitution * 0.8), "the bits of a plain factor");
     }
 
     #[test]

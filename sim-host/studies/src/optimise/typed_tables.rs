@@ -72,9 +72,9 @@ struct MotionRow<'s> {
     motion: &'s Motion<'s>,
     design: &'s Design,
     response: &'s Result<Response, String>,
-    /// Number of the specimen, and the factor on its restitution.
+    /// Number of the specimen, and its η.
     specimen: usize,
-    restitution_factor: f64,
+    restitution: Option<f64>,
 }
 
 impl MotionRow<'_> {
@@ -88,14 +88,19 @@ impl MotionRow<'_> {
 pub fn motion_table<'s>(problem: &'s Problem<'s>, solution: &'s Solution, chosen: Option<&Row>) -> impl Table + use<'s> {
     let of_chosen = |design: &&Design| chosen.is_some_and(|row| row.candidate == design.candidate);
     let chosen = solution.designs.iter().find(of_chosen);
-    let designs: Vec<&Design> = std::iter::once(&solution.bare).chain(chosen).collect();
+    let designs = std::iter::once(&solution.bare).chain(chosen);
+    let designs: Vec<_> = designs.map(|design| (design, problem.restitutions(design.candidate))).collect();
     let (motions, several) = (problem.motions.len(), problem.specimens.len() > 1);
     let mut rows = Vec::new();
     for index in 0..problem.trials() {
         let (motion, specimen) = (&problem.motions[index % motions], index / motions);
-        let restitution_factor = problem.specimens[specimen].restitution;
-        let row =
-            |design: &&'s Design| MotionRow { motion, design, response: &design.responses[index], specimen, restitution_factor };
+        let row = |(design, restitutions): &(&'s Design, Vec<Option<f64>>)| MotionRow {
+            motion,
+            design,
+            response: &design.responses[index],
+            specimen,
+            restitution: restitutions[specimen],
+        };
         rows.extend(designs.iter().map(row));
     }
     FieldTable { fields: motion_fields(several), rows }
@@ -119,7 +124,5 @@ fn motion_fields<'s>(several: bool) -> Fields<MotionRow<'s>> {
     if !several {
         return fields;
     }
-    fields
-        .with(Column::count("specimen"), |row| row.specimen.into())
-        .with(Column::number("restitution_factor"), |row| row.restitution_factor.into())
+    fields.with(Column::count("specimen"), |row| row.specimen.into()).with(number("restitution"), |row| row.restitution.into())
 }
