@@ -6,6 +6,7 @@ use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::accuracy::ErrorEstimate;
 use sprag_sim::history::Sample;
 use sprag_sim::scene::Scene;
+use sprag_sim::scene::checks::CoilTable;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::DeviceRun;
 use sprag_sim::simulation::coil_use::CoilUse;
@@ -89,6 +90,27 @@ impl Asked {
             error: run.error.map(|report| report.estimate),
         }
     }
+
+    /// What an accelerometer on block or ground reads at most, m/s².
+    pub fn acceleration(&self) -> Extreme<f64> {
+        let (block, ground) = (self.block_acceleration, self.ground_acceleration);
+        if ground.value > block.value { ground } else { block }
+    }
+
+    /// How long the coils of both clutches are engaged, s.
+    pub fn coils_engaged_s(&self) -> Option<Extreme<f64>> {
+        self.coils.map(|coils| whole_run(coils.engaged_s))
+    }
+
+    /// Energy of the coils of both clutches, of which each is `coil`, J.
+    pub fn coil_energy_j(&self, coil: Option<&CoilTable>) -> Option<Extreme<f64>> {
+        self.coils.zip(coil).map(|(coils, coil)| whole_run(coils.energy_j(coil)))
+    }
+}
+
+/// A total over a run, which has no instant.
+fn whole_run(value: f64) -> Extreme<f64> {
+    Extreme { value, time: f64::NAN }
 }
 
 fn hypotenuse(a: f64, b: f64) -> f64 {

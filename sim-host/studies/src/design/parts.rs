@@ -59,6 +59,14 @@ pub struct Built {
     pub travel_m: Option<Largest>,
     /// Largest speed of the rack, m/s.
     pub rack_speed_m_s: Option<Largest>,
+    /// Largest |θ̇|, rad/s.
+    pub rate_rad_s: Option<Largest>,
+    /// Largest acceleration that an accelerometer on block or ground reads, m/s².
+    pub acceleration_m_s2: Option<Largest>,
+    /// Longest time that the coils of both clutches are engaged, s.
+    pub coils_engaged_s: Option<Largest>,
+    /// Largest energy of both, J; null where the scene has no coil.
+    pub coil_energy_j: Option<Largest>,
 }
 
 /// What is known of a device before its lines are written.
@@ -101,28 +109,31 @@ impl Sizing<'_> {
     }
 
     fn rate(&self) -> Option<Largest> {
-        largest(self.motions, self.asked, |asked| Some(asked.rate))
+        self.of_both_runs(|asked| Some(asked.rate), |built| &built.rate_rad_s)
     }
 
     fn acceleration(&self) -> Option<Largest> {
-        let of = |asked: &Asked| {
-            let (block, ground) = (asked.block_acceleration, asked.ground_acceleration);
-            Some(if ground.value > block.value { ground } else { block })
-        };
-        largest(self.motions, self.asked, of)
+        self.of_both_runs(|asked| Some(asked.acceleration()), |built| &built.acceleration_m_s2)
+    }
+
+    /// The larger of what the scene's clutches ask for and of what the chosen ones do.
+    fn of_both_runs(
+        &self,
+        of: impl Fn(&Asked) -> Option<Extreme<f64>>,
+        built: fn(&Built) -> &Option<Largest>,
+    ) -> Option<Largest> {
+        let found = largest(self.motions, self.asked, of)?;
+        Some(found.or_larger(self.built.and_then(|with| built(with).as_ref())))
     }
 
     /// The lines, by part.
     pub fn items(&self, sensors: Option<&SensorClass>) -> Vec<Item> {
         let (basis, pinion, disc) = (self.basis, self.pinion, self.disc);
         let weight = self.mass_kg * GRAVITY;
-        let found = |of: &dyn Fn(&Asked) -> Option<Extreme<f64>>| largest(self.motions, self.asked, of);
-        let built = |of: fn(&Built) -> &Option<Largest>| self.built.and_then(|built| of(built).as_ref());
-        let support = found(&|asked| asked.located.support).map(|force| force.times(weight));
-        let support = support.map(|support| support.or_larger(built(|built| &built.support_n)));
-        let travel = found(&|asked| asked.located.stroke);
-        let travel = travel.map(|travel| travel.or_larger(built(|built| &built.travel_m)));
-        let drive = found(&|asked| asked.located.drive);
+        let in_newtons = |force: Extreme<f64>| Extreme { value: weight * force.value, ..force };
+        let support = self.of_both_runs(|asked| asked.located.support.map(in_newtons), |built| &built.support_n);
+        let travel = self.of_both_runs(|asked| asked.located.stroke, |built| &built.travel_m);
+        let drive = largest(self.motions, self.asked, |asked| asked.located.drive);
         let mut list = List::default();
         let at_corners = self.sets > 1;
         if at_corners {
@@ -172,12 +183,11 @@ impl Sizing<'_> {
             list.0.push(item);
             let for_sensors = sensors.and_then(|sensors| sensors.delay_s);
             list.follows("coil", "delay, at most", "s", Some(allowed.delay_s - for_sensors.unwrap_or(0.0)));
-            let coils = |of: &dyn Fn(&Asked) -> Option<f64>| found(&|asked| of(asked).map(whole_run));
-            let engaged = coils(&|asked| asked.coils.map(|coils| coils.engaged_s));
-            list.whole_run("coils, both", "time engaged", "s", engaged);
+            let engaged = self.of_both_runs(Asked::coils_engaged_s, |built| &built.coils_engaged_s);
+            list.sized("coils, both", "time engaged", "s", engaged.as_ref(), None);
             if let Some(coil) = &self.coil {
-                let energy = coils(&|asked| asked.coils.map(|coils| coils.energy_j(coil)));
-                list.whole_run("coils, both", "energy", "J", energy);
+                let energy = self.of_both_runs(|asked| asked.coil_energy_j(Some(coil)), |built| &built.coil_energy_j);
+                list.sized("coils, both", "energy", "J", energy.as_ref(), None);
             }
         }
         if let Some(sensors) = sensors {
@@ -194,11 +204,6 @@ impl Sizing<'_> {
         }
         list.0
     }
-}
-
-/// A total over a run, which has no instant.
-fn whole_run(value: f64) -> Extreme<f64> {
-    Extreme { value, time: f64::NAN }
 }
 
 /// Lines.
@@ -236,9 +241,5 @@ impl List {
 
     fn follows(&mut self, part: &'static str, quantity: &'static str, unit: &'static str, chosen: Option<f64>) {
         self.0.push(Item::of(part, quantity, unit, None, chosen));
-    }
-
-    fn whole_run(&mut self, part: &'static str, quantity: &'static str, unit: &'static str, needed: Option<Largest>) {
-        self.0.push(Item::of(part, quantity, unit, needed.as_ref(), None));
     }
 }

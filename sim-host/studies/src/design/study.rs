@@ -6,6 +6,7 @@ use sprag_shared::structure::block::GRAVITY;
 use sprag_shared::structure::mount::Mount;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::scene::checks::CoilTable;
 use sprag_sim::scene::device::Kind;
 use sprag_sim::scene::{Scene, SceneError};
 use sprag_sim::simulation::RunError;
@@ -191,7 +192,7 @@ impl<'a> Problem<'a> {
                 Ok(None) => {}
                 Ok(Some(subject)) => {
                     let found = work.asked(&subject.watched(coil), &format!("{device}, as chosen"), findings)?;
-                    built = Some(compare(&chosen, delay.delay_s, weight, motions, (&asked, &found)));
+                    built = Some(compare(&chosen, delay.delay_s, (weight, coil.as_ref()), motions, (&asked, &found)));
                 }
                 Err(error) => built_unknown = Some(in_words(error)),
             }
@@ -296,7 +297,7 @@ fn rotation(asked: &Asked) -> Option<Extreme<f64>> {
 fn compare(
     chosen: &Pinion,
     delay_s: f64,
-    weight: f64,
+    (weight, coil): (f64, Option<&CoilTable>),
     motions: &[StudyMotion],
     (before, after): (&[Option<Asked>], &[Option<Asked>]),
 ) -> Built {
@@ -316,5 +317,9 @@ fn compare(
         support_n: mine(&|asked| asked.located.support).map(|force| force.times(weight)),
         travel_m: mine(&|asked| asked.located.stroke),
         rack_speed_m_s: mine(&|asked| Some(asked.rack_speed)),
+        rate_rad_s: mine(&|asked| Some(asked.rate)),
+        acceleration_m_s2: mine(&|asked| Some(asked.acceleration())),
+        coils_engaged_s: mine(&Asked::coils_engaged_s),
+        coil_energy_j: mine(&|asked| asked.coil_energy_j(coil)),
     }
 }

@@ -2,10 +2,12 @@
 
 use std::f64::consts::PI;
 
+use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 
 use super::basis::Basis;
+use super::largest::Largest;
 use super::page::page;
 use super::study::{PartsList, Problem};
 use crate::sensitivity::motion::StudyMotion;
@@ -50,4 +52,24 @@ fn a_device_at_the_base_corners_is_there_twice() {
         let teeth = (2.0 * to_each_side / (1e-3 * PI * list.pinion.module_mm)).ceil() + 4.0;
         assert_eq!(chosen(&list, "rack", "teeth"), Some(teeth));
     }
+}
+
+/// Plates that are late and slip let the block move otherwise than ideal clutches: sensors and coils have to do for both.
+#[test]
+fn sensors_and_coils_are_those_of_both_runs() {
+    let (list, _) = designed("clutched-pair", "mount = 'centre-of-mass'");
+    let (built, asked) = (list.built.as_ref().unwrap(), list.asked[0].unwrap());
+    let of_chosen = |largest: &Option<Largest>| largest.as_ref().unwrap().value;
+    let mut larger = 0;
+    for (part, first, chosen, unit) in [
+        ("gyroscope", asked.rate.value, of_chosen(&built.rate_rad_s), PI / 180.0),
+        ("accelerometers", asked.acceleration().value, of_chosen(&built.acceleration_m_s2), GRAVITY),
+        ("coils, both", asked.coils.unwrap().engaged_s, of_chosen(&built.coils_engaged_s), 1.0),
+    ] {
+        let item = list.items.iter().find(|item| item.part == part).unwrap();
+        assert!((item.needed.unwrap() * unit / first.max(chosen) - 1.0).abs() < 1e-12, "{item:?}");
+        assert_eq!(item.chosen_clutches, chosen > first, "{item:?}");
+        larger += usize::from(item.chosen_clutches);
+    }
+    assert!(larger > 0, "the chosen clutches ask for more of one of them: {built:?}");
 }
