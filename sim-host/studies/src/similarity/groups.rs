@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 
 use serde::Serialize;
+use sprag_shared::math;
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::error::ParameterError;
 use sprag_sim::scene::Scene;
 use sprag_sim::scene::ground::{Direction, GroundError, GroundTable, Motion};
 
+use super::keys::{self, Scales};
 use crate::cloud::measure::{BlockScales, Measure, MeasuredRecord};
 
 /// Relative difference up to which two groups count as equal.
@@ -45,12 +47,14 @@ pub enum GroupsError {
     Ground(#[from] GroundError),
 }
 
-/// The groups of `scene`: those of every motion of the ground, then those of every device.
+/// The groups of `scene`: those of every motion of the ground, then those of every device. Slender blocks with an ideal device know σ, ℓ and λ as
+/// σℓ²/λ alone; for all others λ and ℓ are groups too, and so is α where other keys of the block are set.
 ///
 /// # Errors
 /// [`GroupsError`] for a restitution that the block cannot have, or a record that cannot be read.
 pub fn groups(scene: &Scene) -> Result<Vec<Group>, GroupsError> {
     let p = scene.block.frequency_parameter();
+    let scales = Scales::of(scene);
     let mut groups = Vec::new();
     for direction in [Direction::Horizontal, Direction::Vertical] {
         let (place, tables) = scene.file.motions(direction);
@@ -62,8 +66,18 @@ pub fn groups(scene: &Scene) -> Result<Vec<Group>, GroupsError> {
         let structure = scene.structure(index);
         let of = |symbol: &str| format!("{symbol} of {}", structure_name(scene, index));
         groups.push(Group::new(of("η"), structure.restitution()?));
-        groups.push(Group::new(of("σ"), structure.device.mass_ratio));
-        let table = &scene.file.device[index];
+        let (device, table) = (structure.device, &scene.file.device[index]);
+        let (lambda, lever) = (scene.block.inertia_ratio(), device.mount.slender_lever_squared(&scene.block)?);
+        groups.push(Group::new(of("σℓ²/λ"), device.mass_ratio * lever / lambda));
+        let beyond = scales.groups(&json(table), &keys::OF_DEVICE);
+        let alone = scene.geometry() == Geometry::Slender && beyond.is_empty() && table.support_key().is_none();
+        if !alone {
+            groups.push(Group::new(of("λ"), lambda));
+            if device.mass_ratio > 0.0 {
+                groups.push(Group::new(of("ℓ"), math::square_root(lever)));
+            }
+        }
+        groups.extend(beyond.into_iter().map(|(key, value)| Group::new(of(&key), value)));
         if let Some(wall) = table.support_oscillator() {
             groups.push(Group::new(of("ω_s/p"), wall.frequency_hz * TAU / p));
             groups.push(Group::new(of("ζ_s"), wall.damping_ratio));
@@ -72,9 +86,20 @@ pub fn groups(scene: &Scene) -> Result<Vec<Group>, GroupsError> {
             groups.push(Group::new(of("ü_s/ü_g"), table.support_amplification));
         }
     }
+    let of_block = scales.groups(&json(&scene.file.block), &keys::OF_BLOCK);
+    if of_block.iter().any(|(_, value)| value.is_some()) {
+        groups.push(Group::new("α".to_owned(), scene.block.slenderness()));
+    }
+    groups.extend(of_block.into_iter().map(|(key, value)| Group::new(format!("block.{key}"), value)));
     groups.push(Group::new("θ(0)/α".to_owned(), scene.file.block.initial_rotation_ratio));
     groups.push(Group::new("θ̇(0)/(pα)".to_owned(), scene.file.block.initial_velocity_ratio));
     Ok(groups)
+}
+
+/// A table of a scene by its keys.
+fn json(table: &impl Serialize) -> serde_json::Value {
+    // Tables of a scene have names for keys, and numbers, words and tables for values.
+    serde_json::to_value(table).unwrap_or_default()
 }
 
 /// What stays of a device's name when its numbers change: its place and kind.
@@ -166,6 +191,47 @@ mod tests {
         for (one, other) in [(&factor, &of(2.0, "")), (&of(2.0, ""), &factor)] {
             assert_eq!(names(one, other), "ü_s/ü_g of device 0 (inerter)");
         }
+    }
+
+    /// A slender block with an ideal pair knows σℓ²/λ alone; one with more to it each key by itself.
+    #[test]
+    fn whatever_differs_of_block_and_device_is_named() {
+        let of_p = |p: f64, block: &str, device: &str| {
+            let text = format!(
+                "block = {{ frequency_parameter_1_s = {p}, geometry = 'slender', {block} }}\n\
+                 device = [{{ kind = 'clutched-pair', {device} }}]\n\
+                 ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 3.0 }}]"
+            );
+            groups(&Scene::parse(&text, "scene").unwrap()).unwrap()
+        };
+        let of = |block: &str, device: &str| of_p(2.0, block, device);
+        let names = |one: &[Group], other: &[Group]| unequal(one, other).join(", ").replace(" of device 0 (clutched-pair)", "");
+        let at_10 = "slenderness_deg = 10.0";
+        let first = of(at_10, "mass_ratio = 0.5");
+        assert_eq!(names(&first, &of(&format!("{at_10}, inertia_ratio = 2.0"), "mass_ratio = 0.75")), "");
+        assert_eq!(names(&first, &of(&format!("{at_10}, inertia_ratio = 2.0"), "mass_ratio = 0.5")), "σℓ²/λ");
+        let corners = |device: &str| of(at_10, &format!("mount = 'base-corners', pulley_ratio = 2.0, {device}"));
+        assert_eq!(names(&first, &corners("mass_ratio = 0.5")), "σℓ²/λ");
+        let lever = 4.0 * 10_f64.to_radians();
+        assert_eq!(names(&first, &corners(&format!("mass_ratio = {}", 0.5 / (lever * lever)))), "");
+
+        // The same delay is another one to a block that is twice as large, and the same capacity to one that is more slender.
+        let late = |p: f64, delay: f64| {
+            let device = format!("mass_ratio = 0.5, actuation = {{ engagement_delay_s = {delay} }}");
+            of_p(p, at_10, &device)
+        };
+        assert_eq!(names(&late(2.0, 0.02), &late(1.0, 0.02)), "actuation.engagement_delay_s");
+        assert_eq!(names(&late(2.0, 0.02), &late(1.0, 0.04)), "");
+        let plates = |slenderness: f64, capacity: f64| {
+            let device = format!("mass_ratio = 0.5, clutch = {{ capacity_ratio = {capacity} }}");
+            of(&format!("slenderness_deg = {slenderness}"), &device)
+        };
+        assert_eq!(names(&plates(10.0, 0.1), &plates(5.0, 0.1)), "clutch.capacity_ratio");
+        assert_eq!(names(&plates(10.0, 0.1), &plates(5.0, 0.05)), "");
+        assert_eq!(names(&plates(10.0, 0.1), &plates(10.0, 0.2)), "clutch.capacity_ratio");
+        assert!(names(&first, &plates(10.0, 0.1)).contains("clutch.capacity_ratio"));
+        let friction = |ratio: f64| of(at_10, &format!("mass_ratio = 0.5, rack = {{ dry_friction_ratio = {ratio} }}"));
+        assert_eq!(names(&friction(0.01), &friction(0.02)), "rack.dry_friction_ratio");
     }
 
     fn scene(block: &str, ground: &str) -> Scene {
