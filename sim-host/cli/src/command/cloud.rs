@@ -1,7 +1,5 @@
 //! `sprag cloud`: demand regressions and fragilities over many records.
 
-use std::path::PathBuf;
-
 use clap::Args;
 use serde::Serialize;
 use sprag_report::columns::Table;
@@ -96,8 +94,8 @@ struct Studied<'a> {
     records: &'a StudyRecords,
     subject: Subject,
     runs: Runs,
-    /// runs.csv, if it is written.
-    rows: Option<PathBuf>,
+    /// Those of runs.csv, if it is kept on the way.
+    rows: Option<Rows>,
 }
 
 impl Run for CloudArguments {
@@ -110,17 +108,20 @@ impl Run for CloudArguments {
         let (records, warnings) = self.input.read(&study, false, &pool, context)?;
         let interrupt = context.interrupt;
         let once = |change| pool.install(|| studied(self, change, &records, &mut folder, interrupt));
-        let studied = self.accuracy.run(context, once)?;
+        let mut studied = self.accuracy.run(context, once)?;
         let complete = studied.records.unreadable.is_empty() && !studied.runs.failed;
         let shard = self.long_run.shard();
-        if let (true, Some(rows)) = (shard != Shard::WHOLE, &studied.rows) {
-            context.print(format_args!("shard {shard}: {}\n", rows.display()));
-            return Ok(Completion::of(complete));
-        }
+        let rows = match studied.rows.take() {
+            Some(rows) if shard != Shard::WHOLE => {
+                context.print(format_args!("shard {shard}: {}\n", rows.finish()?.display()));
+                return Ok(Completion::of(complete));
+            }
+            rows => rows,
+        };
         let mut report = Report::new("cloud", &folder, &self.output)?;
         let findings = pool.install(|| Findings::of(&studied.study, &studied.runs, interrupt))?;
         context.check_interrupt()?;
-        fill(&mut report, &studied, &findings, &warnings)?;
+        fill(&mut report, &studied, rows, &findings, &warnings)?;
         report.complete(complete);
         report.finish(context)
     }
@@ -167,8 +168,7 @@ fn studied<'a>(
         interrupt.keep(rows.interrupted());
         return Err(rows.interrupted().into());
     }
-    let rows = rows.finish()?;
-    interrupt.keep(resumable("all rows", &rows));
+    interrupt.keep(resumable("all rows", folder));
     let runs = list.sum_up(all);
     Ok(Studied { study, records, subject, runs, rows: Some(rows) })
 }
@@ -194,8 +194,14 @@ impl Divided for CloudArguments {
 }
 
 /// Puts files, tables and notes into the report.
-fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warnings: &[String]) -> anyhow::Result<()> {
-    let Studied { study, records, subject, runs, rows } = studied;
+fn fill(
+    report: &mut Report,
+    studied: &Studied<'_>,
+    rows: Option<Rows>,
+    findings: &Findings,
+    warnings: &[String],
+) -> anyhow::Result<()> {
+    let Studied { study, records, subject, runs, .. } = studied;
     let input = Input { study: &study.file, structures: &study.structures };
     report.made_by(MadeOf { input, seed: study.bootstrap.seed })?;
     let answer = Answer { unreadable: &records.unreadable, findings, left_out: &runs.left_out, accuracy: runs.worst };
@@ -207,7 +213,7 @@ fn fill(report: &mut Report, studied: &Studied<'_>, findings: &Findings, warning
             // What a run without a time budget says of its own runs.csv.
             report.remove("runs.run.json");
         }
-        Some(rows) => report.rows(rows, &of_runs.columns())?,
+        Some(rows) => report.rows("runs", rows, &of_runs.columns())?,
     }
     report.table("demand", &demand_table(findings))?;
     report.table("fragility", &fragility_table(findings))?;

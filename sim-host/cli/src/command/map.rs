@@ -134,19 +134,16 @@ impl Run for MapArguments {
             interrupt.keep(rows.interrupted());
             return Err(rows.interrupted().into());
         }
-        let path = rows.finish()?;
-        interrupt.keep(if self.refine && shard == Shard::WHOLE {
-            format!(
-                "all rows are kept in {}; the same command with --resume traces the boundaries from the start",
-                path.display()
-            )
-        } else {
-            resumable("all rows", &path)
-        });
         if shard != Shard::WHOLE {
-            context.print(format_args!("shard {shard}: {}\n", path.display()));
+            context.print(format_args!("shard {shard}: {}\n", rows.finish()?.display()));
             return Ok(Completion::Complete);
         }
+        interrupt.keep(if self.refine {
+            let folder = folder.display();
+            format!("all rows are kept in {folder}; the same command with --resume traces the boundaries from the start")
+        } else {
+            resumable("all rows", &folder)
+        });
         let trace = || trace(&grid, &tally.maps, self.evaluations, interrupt);
         let (boundaries, seconds) = if self.refine { pool.install(trace)? } else { Default::default() };
         let mut report = Report::new("map", &folder, &self.output)?;
@@ -156,7 +153,7 @@ impl Run for MapArguments {
         let input = SceneInput { scene: &file };
         report.made_by(input)?;
         report.summary(input, &records, &warnings, &subject, Runs { runs: &runs })?;
-        report.rows(&path, &columns)?;
+        report.rows("map", rows, &columns)?;
         if report.draws() {
             for (name, picture) in figures(&grid, &tally) {
                 report.picture(name, picture)?;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use sprag_report::columns::{Column, Table, metadata_of};
+use sprag_report::long_run::rows::Rows;
 use sprag_report::output::{Formats, Maker, OutputError, Results, RowTaker, SCHEMA_VERSION, Subject, Summary, VERSION};
 use sprag_report::plot::PlotError;
 use sprag_report::progress::Progress;
@@ -23,6 +24,8 @@ pub struct Report {
     formats: Formats,
     json: bool,
     results: Results,
+    /// Rows that are made, and not in their place.
+    rows: Option<Rows>,
     /// What every Parquet file says of itself.
     made_by: Vec<(String, String)>,
     summary: String,
@@ -44,6 +47,7 @@ impl Report {
             formats: output.formats(command)?,
             json: output.json,
             results: Results::default(),
+            rows: None,
             made_by: Vec::new(),
             summary: String::new(),
             text: String::new(),
@@ -134,12 +138,18 @@ impl Report {
         Ok(())
     }
 
-    /// Writes a table whose rows are at `csv` in the other formats.
+    /// Writes the table `name` of `rows` in the other formats. As CSV it comes to its place with all other files: results of two runs are
+    /// never mixed.
     ///
     /// # Errors
     /// [`OutputError`].
-    pub fn rows(&mut self, csv: &Path, columns: &[Column]) -> Result<(), OutputError> {
-        if self.formats.parquet { self.results.add_parquet_of(csv, columns, &self.made_by) } else { Ok(()) }
+    pub fn rows(&mut self, name: &str, rows: Rows, columns: &[Column]) -> Result<(), OutputError> {
+        if self.formats.parquet {
+            let path = self.folder.join(format!("{name}.parquet"));
+            self.results.add_parquet_of(rows.path(), &path, columns, &self.made_by)?;
+        }
+        self.rows = Some(rows);
+        Ok(())
     }
 
     /// Removes a file that earlier results have left.
@@ -203,9 +213,10 @@ impl Report {
     /// Puts all files in their places and prints the text, or with `--json` the summary, and the text on standard error.
     ///
     /// # Errors
-    /// An interrupt, and [`OutputError`].
+    /// An interrupt, rows that are not as they were written, and [`OutputError`].
     pub fn finish(self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         context.check_interrupt()?;
+        self.rows.map_or(Ok(()), |rows| rows.finish().map(drop))?;
         self.results.commit_with_notes(&mut context.err)?;
         drop(self.drawing);
         let text = format!("{}results written to {}\n", self.text, self.folder.display());

@@ -227,6 +227,39 @@ fn a_finished_map_is_not_replaced_by_another_scene_its_shards_or_its_resumption(
     assert_ne!(files(&out), before);
 }
 
+/// A run that ends after its rows and before its pictures, here because the summary cannot be written, leaves the results before whole.
+#[test]
+fn results_of_two_runs_are_never_mixed() {
+    let folder = tempfile::tempdir().unwrap();
+    let records = folder_of_pulses(folder.path());
+    let (figure, study, out) = (scene("figure08"), scene("cloud"), folder.path().join("out"));
+    let few = ["--set", "map.x.cells=4", "--set", "map.y.cells=3", "--refine", "--evaluations", "20"];
+    let commands = [[&["map", &figure][..], &few].concat(), vec!["cloud", &study, "--records", &records]];
+    for (command, table) in commands.into_iter().zip(["map", "runs"]) {
+        let run = |more: &[&str]| sprag(&[&command[..], &["--formats", "csv,svg", "--out", text(&out)], more].concat());
+        let [rows, ledger, summary] = [format!("{table}.csv"), format!("{table}.run.json"), "summary.json".to_owned()];
+        let read = || [&rows, &ledger].map(|name| fs::read(out.join(name)).unwrap());
+        let read_only = |only| {
+            let mut mode = fs::metadata(out.join(&summary)).unwrap().permissions();
+            mode.set_readonly(only);
+            fs::set_permissions(out.join(&summary), mode).unwrap();
+        };
+        run(&[]);
+        let before = read();
+        let other = ["--set", "block.restitution=0.7", "--overwrite", "--resume"];
+        read_only(true);
+        declined(&run(&other[..3]), &["summary.json", "read-only"]);
+        assert_eq!(read(), before, "{table}");
+        // Its own rows are kept.
+        assert!(out.join(format!("{rows}.unfinished")).exists(), "{table}");
+        read_only(false);
+        run(&other);
+        assert_ne!(read(), before, "{table}");
+        assert!(!out.join(format!("{rows}.unfinished")).exists(), "{table}");
+        fs::remove_dir_all(&out).unwrap();
+    }
+}
+
 #[test]
 fn cloud_and_optimise_have_folders_of_their_own() {
     let folder = tempfile::tempdir().unwrap();

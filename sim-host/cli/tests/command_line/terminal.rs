@@ -199,7 +199,7 @@ fn map_keeps_its_rows_and_resumes() {
 }
 
 /// What an interrupted map says that has all its cells.
-const BOUNDARIES: &str = "all rows are kept in map/map.csv; the same command with --resume traces the boundaries from the start";
+const BOUNDARIES: &str = "all rows are kept in map; the same command with --resume traces the boundaries from the start";
 
 #[test]
 fn map_with_boundaries_shows_what_it_traces() {

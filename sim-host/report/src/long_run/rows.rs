@@ -152,6 +152,11 @@ impl Rows {
         self.done
     }
 
+    /// Where they are until they are finished.
+    pub fn path(&self) -> &Path {
+        if self.growing.is_some() { &self.paths_of.unfinished } else { &self.paths_of.finished }
+    }
+
     /// What to say of a run that was interrupted.
     pub fn interrupted(&self) -> LongRunError {
         LongRunError::Interrupted { done: self.done, rows: self.shape.range.len() }

@@ -49,14 +49,18 @@ impl Results {
         })
     }
 
-    /// Writes the finished table at `csv`, which has these columns, as Parquet beside it, as [`Results::add_table`] would have.
+    /// Writes the table at `csv`, which has these columns, to `path` as Parquet, as [`Results::add_table`] would have.
     ///
     /// # Errors
     /// The errors of [`Results::add`].
-    pub fn add_parquet_of(&mut self, csv: &Path, columns: &[Column], metadata: &Metadata) -> Result<(), OutputError> {
+    pub fn add_parquet_of(
+        &mut self,
+        csv: &Path,
+        path: &Path,
+        columns: &[Column],
+        metadata: &Metadata,
+    ) -> Result<(), OutputError> {
         let rows = std::fs::File::open(csv).map_err(|error| OutputError { path: csv.to_owned(), reason: error.to_string() })?;
-        self.add(&csv.with_extension("parquet"), |file| {
-            parquet_of_csv(rows, columns, metadata, file).map(drop).map_err(Into::into)
-        })
+        self.add(path, |file| parquet_of_csv(rows, columns, metadata, file).map(drop).map_err(Into::into))
     }
 }
