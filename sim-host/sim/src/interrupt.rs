@@ -38,6 +38,12 @@ impl Interrupt {
         *self.0.kept.lock().unwrap_or_else(PoisonError::into_inner) = Some(what.to_string());
     }
 
+    /// The same interrupt for a step of the work: what is kept of the step alone is not said.
+    #[must_use]
+    pub fn of_step(&self) -> Interrupt {
+        Interrupt(Arc::new(State { signal: self.0.signal.clone(), ..State::default() }))
+    }
+
     /// Exit code of a command that was interrupted, as shells have it: 128 and the number of the signal.
     pub fn exit_code(&self) -> i32 {
         128 + i32::try_from(self.0.signal.load(Ordering::Relaxed)).unwrap_or(0)
@@ -74,5 +80,18 @@ mod tests {
         interrupt.report(&mut lines);
         assert_eq!(String::from_utf8(lines).unwrap(), "sprag: interrupted; 3 of 9 rows are kept\n");
         assert_eq!(interrupt.exit_code(), 130);
+    }
+
+    #[test]
+    fn a_step_is_interrupted_and_says_nothing() {
+        let interrupt = Interrupt::default();
+        interrupt.keep("the parts are kept");
+        let step = interrupt.of_step();
+        step.keep("3 of 9 rows are kept");
+        interrupt.set();
+        assert!(step.is_set());
+        let mut lines = Vec::new();
+        interrupt.report(&mut lines);
+        assert_eq!(String::from_utf8(lines).unwrap(), "sprag: interrupted; the parts are kept\n");
     }
 }

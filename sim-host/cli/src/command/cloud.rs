@@ -156,7 +156,7 @@ fn studied<'a>(
         all.push(list.read(row, record)?);
         Ok(())
     })?;
-    interrupt.keep(resumable("finished rows", folder));
+    interrupt.keep(resumable("finished rows", folder, arguments.long_run.again()));
     progress.begin((rows.done() + rows.left().len()) as u64);
     progress.resume(rows.done() as u64);
     let whole = list.work_through(rows.left(), interrupt, &|| progress.step(), |runs| {
@@ -168,7 +168,7 @@ fn studied<'a>(
         interrupt.keep(rows.interrupted());
         return Err(rows.interrupted().into());
     }
-    interrupt.keep(resumable("all rows", folder));
+    interrupt.keep(resumable("all rows", folder, arguments.long_run.again()));
     let runs = list.sum_up(all);
     Ok(Studied { study, records, subject, runs, rows: Some(rows) })
 }

@@ -84,6 +84,7 @@ impl Planned {
         if self.division.has(&self.folder, part) {
             return Ok(false);
         }
+        context.interrupt.keep(format_args!("part {part} is not there; the same command makes it"));
         let rows = self.rows(context)?;
         let scratch = self.scratch()?;
         let (output, of_threads, long_run) = self.command.options();
@@ -91,8 +92,9 @@ impl Planned {
         output.replace.overwrite = true;
         of_threads.threads = threads.or(of_threads.threads);
         long_run.shard = Some(shard);
-        let (mut out, interrupt) = (io::sink(), context.interrupt);
-        let mut inner = Context { out: &mut out, err: context.err, interrupt, quiet: true };
+        long_run.in_scratch = true;
+        let (mut out, interrupt) = (io::sink(), context.interrupt.of_step());
+        let mut inner = Context { out: &mut out, err: context.err, interrupt: &interrupt, quiet: true };
         let completion = self.command.run(&mut inner)?;
         if completion == Completion::Interrupted {
             inner.check_interrupt()?;
@@ -106,13 +108,15 @@ impl Planned {
     /// # Errors
     /// A scene, record or program that has changed since the plan, parts that are missing, and the errors of the command.
     pub fn collect(mut self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+        context.interrupt.keep("the parts are kept; the same command collects them");
         let rows = self.rows(context)?;
         let scratch = self.scratch()?;
         self.division.unpack(&self.folder, &rows, scratch.path())?;
         let parts = self.division.parts;
         let (_, _, long_run) = self.command.options();
         (long_run.merge, long_run.shards) = (Some(parts), Some(scratch.path().to_owned()));
-        self.command.run(context)
+        let interrupt = context.interrupt.of_step();
+        self.command.run(&mut Context { out: context.out, err: context.err, interrupt: &interrupt, quiet: context.quiet })
     }
 
     /// A folder in that of the plan, which is gone at the end.

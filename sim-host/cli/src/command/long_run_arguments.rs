@@ -33,6 +33,9 @@ pub struct LongRunArguments {
     /// Folder of the shards, where that is another than the results'.
     #[arg(skip)]
     pub shards: Option<PathBuf>,
+    /// Whether rows that were made are gone where others cannot be.
+    #[arg(skip)]
+    pub in_scratch: bool,
 }
 
 impl ResumeArguments {
@@ -61,6 +64,12 @@ impl LongRunArguments {
     /// How the rows begin.
     pub fn start(&self) -> Start {
         self.merge.map_or_else(|| self.rows.start(), Start::Merge)
+    }
+
+    /// What goes on after an interruption.
+    pub fn again(&self) -> &'static str {
+        // A merge reads all shards again.
+        if self.merge.is_some() { "the same command" } else { super::RESUMED }
     }
 
     /// Where shards are that are merged into results in `folder`.

@@ -20,7 +20,7 @@ use sprag_sim::scene::{Scene, SceneError, document, text_of};
 use sprag_studies::map::boundary_figure;
 use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
-use sprag_studies::map::study::study_to;
+use sprag_studies::map::study::{MapError, study_to};
 use sprag_studies::map::table::{Labels, columns};
 use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
 
@@ -126,11 +126,15 @@ impl Run for MapArguments {
         })?;
         let pool = self.threads.pool()?;
         let interrupt = context.interrupt;
-        interrupt.keep(resumable("finished rows", &folder));
+        let again = self.long_run.again();
+        interrupt.keep(resumable("finished rows", &folder, again));
         let progress = Progress::new("cells");
         let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
         progress.finish();
-        if !whole.map_err(|error| anyhow::anyhow!("{error}; {}", rows.interrupted()))? {
+        let failed = |error: MapError| {
+            if self.long_run.in_scratch { anyhow::Error::from(error) } else { anyhow::anyhow!("{error}; {}", rows.interrupted()) }
+        };
+        if !whole.map_err(failed)? {
             interrupt.keep(rows.interrupted());
             return Err(rows.interrupted().into());
         }
@@ -139,10 +143,9 @@ impl Run for MapArguments {
             return Ok(Completion::Complete);
         }
         interrupt.keep(if self.refine {
-            let folder = folder.display();
-            format!("all rows are kept in {folder}; the same command with --resume traces the boundaries from the start")
+            format!("all rows are kept in {}; {again} traces the boundaries from the start", folder.display())
         } else {
-            resumable("all rows", &folder)
+            resumable("all rows", &folder, again)
         });
         let trace = || trace(&grid, &tally.maps, self.evaluations, interrupt);
         let (boundaries, seconds) = if self.refine { pool.install(trace)? } else { Default::default() };

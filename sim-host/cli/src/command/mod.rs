@@ -91,7 +91,10 @@ fn any_number(text: &str) -> Result<f64, String> {
 /// What is shown while a time budget is planned.
 const TRYING: &str = "trying what the time affords";
 
-/// How an interrupted command resumes from the `rows` in `place`.
-fn resumable(rows: &str, place: &Path) -> String {
-    format!("{rows} are kept in {}; the same command with --resume continues", place.display())
+/// What resumes an interrupted command that merges nothing.
+const RESUMED: &str = "the same command with --resume";
+
+/// How an interrupted command goes on from the `rows` in `place`: by `again`.
+fn resumable(rows: &str, place: &Path, again: &str) -> String {
+    format!("{rows} are kept in {}; {again} continues", place.display())
 }

@@ -28,9 +28,9 @@ use super::accuracy_arguments::AccuracyArguments;
 use super::context::{Completion, Context, Run};
 use super::out_arguments::OutputArguments;
 use super::report::Report;
-use super::resumable;
 use super::study_input::{StudyArguments, study_subject};
 use super::thread_arguments::ThreadArguments;
+use super::{RESUMED, resumable};
 use crate::command::long_run_arguments::ResumeArguments;
 
 /// Choose the device that overturns least, under limits.
@@ -189,7 +189,7 @@ fn answered<'a>(
     } else {
         let origin = Origin::new(subject.clone(), MOST_ROWS);
         let mut tried = Tried::begin(folder, origin, arguments.rows.start(), problem.trials())?;
-        interrupt.keep(resumable("finished rows", folder));
+        interrupt.keep(resumable("finished rows", folder, RESUMED));
         match problem.solve(&mut tried, interrupt, &begin, &done) {
             Err(TriedError::Run(RunError::Interrupted)) => {
                 interrupt.keep(tried.interrupted());

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
-use super::long_runs::{files, folders, well};
+use super::long_runs::{files, folders, grown, well};
 use super::studies::folder_of_pulses;
 use super::{said, scene};
 
@@ -96,6 +97,35 @@ fn parts_of_a_cloud_are_the_cloud() {
         let read = |folder: &Path| std::fs::read(folder.join(name)).unwrap();
         assert!(read(&whole) == read(&collected), "{name}");
     }
+}
+
+/// Rows of a part that is interrupted are gone, and nothing is said of keeping them.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_part_is_not_there() {
+    let (root, ..) = folders();
+    let here = root.path();
+    let slow = ["--set", "map.x.cells=2000", "--set", "map.y.cells=2000", "--set", "ground.0.motion=\"half-sine\""];
+    let figure = scene("figure08");
+    let plan = ["plan", "parts", "--parts", "2", "--", "map", &figure];
+    well(sprag(here, &[&plan[..], &slow].concat()));
+    let process = command(here, &["part", "parts", "2"]).stderr(Stdio::piped()).spawn().unwrap();
+    let names = || -> Vec<String> {
+        let files = std::fs::read_dir(here.join("parts")).unwrap();
+        files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    let start = Instant::now();
+    let scratch = || names().into_iter().find(|name| name.starts_with(".unfinished-"));
+    while scratch().is_none() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    grown(&here.join("parts").join(scratch().unwrap()), ["map-2-of-2.csv.unfinished", "map-2-of-2.csv"]);
+    assert!(Command::new("kill").args(["-INT", &process.id().to_string()]).status().unwrap().success());
+    let ended = process.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(130));
+    let words = "sprag: interrupted; part 2 is not there; the same command makes it\n";
+    assert!(said(&ended).ends_with(words), "{}", said(&ended));
+    assert!(!names().iter().any(|name| name.starts_with("part-")), "{:?}", names());
 }
 
 #[test]
