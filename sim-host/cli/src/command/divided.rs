@@ -1,10 +1,12 @@
 //! Commands whose rows are made in parts, by as many machines as there are.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, bail};
 use sprag_report::long_run::division::{Divisible, Division};
+use sprag_report::long_run::shard::Shard;
 
 use super::context::{Completion, Context, Run};
 use super::long_run_arguments::LongRunArguments;
@@ -42,6 +44,9 @@ pub fn divided(words: &[String]) -> anyhow::Result<Box<dyn Divided>> {
         Some(option) => bail!("{option} is what a plan stands for: leave it out"),
     }
 }
+
+/// How names of scratch folders begin.
+const SCRATCH: &str = ".unfinished-";
 
 /// A plan in its folder, with the command that it divides.
 pub struct Planned {
@@ -85,8 +90,27 @@ impl Planned {
             return Ok(false);
         }
         context.interrupt.keep(format_args!("part {part} is not there; the same command makes it"));
+        let scratch_name = format!("{SCRATCH}{part:05}-");
+        let made = self.work(part, shard, threads, &scratch_name, context);
+        if self.division.has(&self.folder, part) {
+            // Also those of processes that still make it: it is there, and so they end well.
+            self.sweep(&scratch_name);
+            return Ok(made.is_ok());
+        }
+        made.map(|()| true)
+    }
+
+    /// Makes a part of these rows that is not there.
+    fn work(
+        &mut self,
+        part: u32,
+        shard: Shard,
+        threads: Option<u16>,
+        scratch_name: &str,
+        context: &mut Context<'_>,
+    ) -> anyhow::Result<()> {
         let rows = self.rows(context)?;
-        let scratch = self.scratch()?;
+        let scratch = self.scratch(scratch_name)?;
         let (output, of_threads, long_run) = self.command.options();
         output.out = Some(scratch.path().to_owned());
         output.replace.overwrite = true;
@@ -99,8 +123,7 @@ impl Planned {
         if completion == Completion::Interrupted {
             inner.check_interrupt()?;
         }
-        self.division.keep(&self.folder, part, &rows, scratch.path())?;
-        Ok(true)
+        Ok(self.division.keep(&self.folder, part, &rows, scratch.path())?)
     }
 
     /// Puts all parts together to the results of the command, as if it had not been divided.
@@ -110,18 +133,30 @@ impl Planned {
     pub fn collect(mut self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         context.interrupt.keep("the parts are kept; the same command collects them");
         let rows = self.rows(context)?;
-        let scratch = self.scratch()?;
+        let scratch = self.scratch(SCRATCH)?;
         self.division.unpack(&self.folder, &rows, scratch.path())?;
         let parts = self.division.parts;
         let (_, _, long_run) = self.command.options();
         (long_run.merge, long_run.shards) = (Some(parts), Some(scratch.path().to_owned()));
         let interrupt = context.interrupt.of_step();
-        self.command.run(&mut Context { out: context.out, err: context.err, interrupt: &interrupt, quiet: context.quiet })
+        let mut inner = Context { out: context.out, err: context.err, interrupt: &interrupt, quiet: context.quiet };
+        let completion = self.command.run(&mut inner)?;
+        self.sweep(SCRATCH);
+        Ok(completion)
     }
 
-    /// A folder in that of the plan, which is gone at the end.
-    fn scratch(&self) -> anyhow::Result<tempfile::TempDir> {
-        let folder = tempfile::Builder::new().prefix(".unfinished-").tempdir_in(&self.folder);
+    /// A folder in that of the plan, which is gone at the end; its name begins with `name`.
+    fn scratch(&self, name: &str) -> anyhow::Result<tempfile::TempDir> {
+        let folder = tempfile::Builder::new().prefix(name).tempdir_in(&self.folder);
         folder.with_context(|| self.folder.display().to_string())
+    }
+
+    /// Removes scratch folders whose names begin with `name`, which processes that were killed have left. What cannot be removed stays.
+    fn sweep(&self, name: &str) {
+        for entry in fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            if entry.file_name().to_str().is_some_and(|other| other.starts_with(name)) {
+                let _ = fs::remove_dir_all(entry.path());
+            }
+        }
     }
 }
