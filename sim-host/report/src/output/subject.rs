@@ -19,8 +19,11 @@ impl Digest {
     /// Digest of the file at `path`.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// When it cannot be read, or is no regular file: a pipe would be waited for, and is empty when it has been read.
     pub fn of(path: &Path) -> std::io::Result<Digest> {
+        if !std::fs::metadata(path)?.is_file() {
+            return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, "not a regular file"));
+        }
         Ok(Digest::of_bytes(&std::fs::read(path)?))
     }
 
@@ -136,6 +139,15 @@ mod tests {
         assert_eq!(of(other).as_deref(), Some("scene.device.0.kind"));
         let other = json!({"block": {"size_m": 2.0}, "device": []});
         assert_eq!(of(other).as_deref(), Some("scene.device"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn digests_are_of_regular_files() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        assert_eq!(Digest::of(file.path()).unwrap(), Digest::of_bytes(b""));
+        // As empty, but a device: a pipe would be waited for.
+        assert!(Digest::of(Path::new("/dev/null")).is_err());
     }
 
     #[test]
