@@ -57,11 +57,41 @@ impl Run for PlanArguments {
 
 /// A script for Slurm's `sbatch`. A part that is there already is done at once, so that it may be sent again as a whole.
 fn slurm(division: &Division, folder: &Path, name: &str) -> String {
-    let (parts, here) = (division.parts, division.working_folder.display());
-    let folder = folder.display();
+    let (parts, here) = (division.parts, for_slurm(&division.working_folder.display().to_string()));
+    // In names of logs % begins what Slurm fills in, also in the folder that it puts before a relative one.
+    let logs = division.working_folder.join(folder).display().to_string();
+    let log = for_slurm(&(logs.replace('%', "%%") + "/part-%a.log"));
+    let folder = folder.display().to_string().replace('\'', r"'\''");
     format!(
         "#!/bin/sh\n#SBATCH --job-name=sprag-{name}\n#SBATCH --array=1-{parts}\n#SBATCH --chdir={here}\n\
-         #SBATCH --output={folder}/part-%a.log\n#SBATCH --requeue\n\
+         #SBATCH --output={log}\n#SBATCH --requeue\n\
          exec sprag part '{folder}' \"$SLURM_ARRAY_TASK_ID\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
     )
+}
+
+/// A word of a line of `#SBATCH`, in which a backslash takes their meaning from quotes, and from itself.
+fn for_slurm(word: &str) -> String {
+    format!("\"{}\"", word.replace('\\', r"\\").replace('"', r#"\""#))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use sprag_report::long_run::origin::Origin;
+    use sprag_report::output::Subject;
+
+    use super::*;
+
+    #[test]
+    fn paths_reach_slurm_and_the_shell_as_they_are() {
+        let origin = Origin::new(Subject::new("map", BTreeMap::new()), 12);
+        let division = Division::new(origin, 3, PathBuf::from(r#"/home/O'Hara "x" #1%"#), Vec::new());
+        let script = slurm(&division, Path::new("Ann's 50 %a"), "map");
+        let lines: Vec<&str> = script.lines().collect();
+        assert!(lines.contains(&r##"#SBATCH --chdir="/home/O'Hara \"x\" #1%""##), "{script}");
+        let log = r##"#SBATCH --output="/home/O'Hara \"x\" #1%%/Ann's 50 %%a/part-%a.log""##;
+        assert!(lines.contains(&log), "{script}");
+        assert!(lines.last().unwrap().starts_with(r#"exec sprag part 'Ann'\''s 50 %a' "$SLURM"#), "{script}");
+    }
 }
