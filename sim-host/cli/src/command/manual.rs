@@ -1,8 +1,11 @@
 //! `sprag manual`: pages for `man`.
 
-use std::path::PathBuf;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap_mangen::Man;
+use sprag_report::output::{OutputError, Results};
 
 use super::context::{Completion, Context, Run};
 
@@ -18,9 +21,58 @@ pub struct ManualArguments {
 impl Run for ManualArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let folder = &self.folder;
-        let written = std::fs::create_dir_all(folder).and_then(|()| clap_mangen::generate_to(crate::line::definition(), folder));
-        written.map_err(|error| anyhow::anyhow!("{}: {error}", folder.display()))?;
+        std::fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, &error))?;
+        let mut definition = crate::line::definition().disable_help_subcommand(true);
+        definition.build();
+        let mut pages = Results::default();
+        add(&definition, folder, &mut pages)?;
+        pages.commit()?;
         context.print(format_args!("pages in {}\n", folder.display()));
         Ok(Completion::Complete)
+    }
+}
+
+/// Writes the pages of a command and of those below it.
+fn add(command: &clap::Command, folder: &Path, pages: &mut Results) -> Result<(), OutputError> {
+    for below in command.get_subcommands().filter(|below| !below.is_hide_set()) {
+        add(below, folder, pages)?;
+    }
+    let man = Man::new(command.clone());
+    pages.add(&folder.join(man.get_filename()), |file| file.write_all(&page(&man)?))
+}
+
+/// The text of a page.
+fn page(man: &Man) -> io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    man.render(&mut text)?;
+    Ok(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use sprag_sim::interrupt::Interrupt;
+
+    use super::*;
+
+    fn run(folder: &Path) -> anyhow::Result<Completion> {
+        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
+        let mut context = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false };
+        ManualArguments { folder: folder.to_owned() }.run(&mut context)
+    }
+
+    /// The page that cannot be written is named, and no other is replaced.
+    #[test]
+    fn pages_are_written_together_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let [batch, whole] = ["sprag-batch.1", "sprag.1"].map(|name| folder.path().join(name));
+        std::fs::write(&batch, "before").unwrap();
+        std::fs::create_dir(&whole).unwrap();
+        let refused = run(folder.path()).unwrap_err().to_string();
+        assert!(refused.starts_with(whole.to_str().unwrap()), "{refused}");
+        assert_eq!(std::fs::read(&batch).unwrap(), b"before");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+        std::fs::remove_dir(&whole).unwrap();
+        run(folder.path()).unwrap();
+        assert!(std::fs::read_to_string(&batch).unwrap().contains(".SH EXTRA"));
     }
 }
