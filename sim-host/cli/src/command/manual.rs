@@ -41,11 +41,19 @@ fn add(command: &clap::Command, folder: &Path, pages: &mut Results) -> Result<()
     pages.add(&folder.join(man.get_filename()), |file| file.write_all(&page(&man)?))
 }
 
-/// The text of a page.
+/// The text of a page. Lines that begin with two spaces, of examples and names of columns, are neither filled nor hyphenated.
 fn page(man: &Man) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     man.render(&mut text)?;
-    Ok(text)
+    let (mut page, mut as_it_is) = (Vec::new(), false);
+    for line in text.split_inclusive(|byte| *byte == b'\n') {
+        if line.starts_with(b"  ") != as_it_is {
+            as_it_is = !as_it_is;
+            page.extend_from_slice(if as_it_is { b".nf\n" } else { b".fi\n" });
+        }
+        page.extend_from_slice(line);
+    }
+    Ok(page)
 }
 
 #[cfg(test)]
@@ -73,6 +81,7 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
         std::fs::remove_dir(&whole).unwrap();
         run(folder.path()).unwrap();
-        assert!(std::fs::read_to_string(&batch).unwrap().contains(".SH EXTRA"));
+        let text = std::fs::read_to_string(&batch).unwrap();
+        assert!(text.contains("columns\n.nf\n  id,geometry,") && text.contains(",free_time\n.fi\nand the result"), "{text}");
     }
 }
