@@ -58,6 +58,9 @@ pub struct BatchArguments {
 /// Cases that one task works on before it looks up.
 const CHUNK: usize = 512;
 
+/// What is kept of results that go through a stream and are interrupted: who reads it has what came before.
+const OF_STREAM: &str = "some rows may have been written";
+
 /// Cases a thread that are in memory at one time.
 const WINDOW: usize = 8 * CHUNK;
 
@@ -223,6 +226,7 @@ fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<
     let cases = cases.cases()?;
     let work = Work { columns, accuracy, tolerance: *tolerance, parquet, pool, interrupt: context.interrupt };
     if is_standard_output(out) {
+        context.interrupt.keep(OF_STREAM);
         return match work.run(cases, Sink::csv(context.out)) {
             // Reported where standard output ends.
             Err(error) if error.is::<io::Error>() => Ok(()),
@@ -234,6 +238,7 @@ fn run(arguments: &BatchArguments, context: &mut Context<'_>) -> anyhow::Result<
         Err(error) => error,
     };
     if let Some(stream) = open_stream(out)? {
+        context.interrupt.keep(OF_STREAM);
         return match work.write(cases, &mut BufWriter::new(stream)) {
             // A reader that stops early has what it wanted.
             Err(error) if error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe) => Ok(()),

@@ -266,3 +266,24 @@ fn termination_leaves_nothing_beside_the_place_of_results() {
     assert_eq!((ended.status.code(), files()), (Some(143), 0), "{}", said(&ended));
     assert!(said(&ended).ends_with("sprag: interrupted; nothing was written\n"), "{}", said(&ended));
 }
+
+/// What has gone through standard output is written, whatever becomes of the rest.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_stream_says_that_rows_may_have_been_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut child = piped(&["batch", "-", "--out", "-", "--threads", "1"], folder.path());
+    let input = child.stdin.as_mut().unwrap();
+    // More than is worked out at one time, and not so much more that it waits for results to be read.
+    input.write_all(table(0..MANY / 2).as_bytes()).unwrap();
+    let mut first = String::new();
+    BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut first).unwrap();
+    assert!(first.starts_with("id,outcome,"), "{first}");
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    // The input stays open until it has ended.
+    let input = child.stdin.take();
+    let ended = child.wait_with_output().unwrap();
+    drop(input);
+    assert_eq!(ended.status.code(), Some(143), "{}", said(&ended));
+    assert!(said(&ended).ends_with("sprag: interrupted; some rows may have been written\n"), "{}", said(&ended));
+}
