@@ -38,7 +38,7 @@ impl Run for PartArguments {
 /// Put the parts of a plan together to the results of its command.
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "Example:\n  sprag collect shared/map\n\n\
-    Writes what the command of the plan writes, where it writes it, to the bytes of a run that was not divided. Parts that are missing are named.")]
+    Writes what the command of the plan writes, where it writes it, to the bytes of a run that was not divided. Parts that are missing or damaged are named.")]
 pub struct CollectArguments {
     /// Folder of the plan.
     #[arg(value_name = "FOLDER")]

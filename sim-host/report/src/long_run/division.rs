@@ -1,6 +1,7 @@
 //! A run that is divided into parts for many machines: the plan, and a file for each part.
 
 use std::fs::{self, File};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -108,8 +109,18 @@ impl Division {
 
     /// Whether a part is there: a whole file with the key of this division.
     pub fn has(&self, folder: &Path, part: u32) -> bool {
-        let file = File::open(self.part_file(folder, part));
-        file.is_ok_and(|file| parquet_text(file, KEY).is_ok_and(|key| key.as_ref() == Some(&self.key)))
+        self.lack(folder, part).is_none()
+    }
+
+    /// Why a part is not there.
+    fn lack(&self, folder: &Path, part: u32) -> Option<&'static str> {
+        match File::open(self.part_file(folder, part)).map(|file| parquet_text(file, KEY)) {
+            Ok(Ok(Some(key))) if key == self.key => None,
+            Ok(Ok(_)) => Some("of another plan"),
+            Ok(Err(_)) => Some("damaged"),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Some("not there"),
+            Err(_) => Some("cannot be read"),
+        }
     }
 
     /// Numbers of the parts that are not there.
@@ -137,12 +148,12 @@ impl Division {
     /// Writes every part as the shard of a run into `scratch`, for a merge.
     ///
     /// # Errors
-    /// [`LongRunError::Parts`] names the first part that is missing.
+    /// [`LongRunError::Parts`] names the first part that is missing or damaged.
     pub fn unpack(&self, folder: &Path, rows: &Divisible, scratch: &Path) -> Result<(), LongRunError> {
-        let missing = self.missing(folder);
-        if let Some(first) = missing.first() {
+        let lacking: Vec<_> = (1..=self.parts).filter_map(|part| Some((part, self.lack(folder, part)?))).collect();
+        if let Some((first, why)) = lacking.first() {
             let path = self.part_file(folder, *first);
-            return Err(LongRunError::Parts { path, missing: missing.len(), parts: self.parts });
+            return Err(LongRunError::Parts { path, why, missing: lacking.len(), parts: self.parts });
         }
         for (part, shard) in (1..).zip(Shard::all(self.parts)) {
             let path = self.part_file(folder, part);

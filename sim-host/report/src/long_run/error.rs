@@ -46,11 +46,13 @@ pub enum LongRunError {
         /// The first thing that is not the same.
         what: String,
     },
-    /// Parts that are not there, or of another plan.
-    #[error("{}: not there; {missing} of {parts} parts are missing", path.display())]
+    /// Parts that are not there, damaged, or of another plan.
+    #[error("{}: {why}; {missing} of {parts} parts are missing", path.display())]
     Parts {
         /// File of the first one.
         path: PathBuf,
+        /// What is wrong with it.
+        why: &'static str,
         /// How many are not there.
         missing: usize,
         /// How many there should be.
