@@ -21,7 +21,7 @@ pub struct Loaded<T>(pub T);
 
 impl<S: Real> ScaledParameters<S> {
     /// Friction over the force of what is locked, with the sign that makes it resist.
-    fn load_share(&self, device: &DeviceState<S>) -> S {
+    pub fn load_share(&self, device: &DeviceState<S>) -> S {
         if device.drives { -self.load_friction } else { self.load_friction }
     }
 

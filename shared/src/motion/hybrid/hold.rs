@@ -4,7 +4,9 @@ use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::any_transmission::TransmissionKind;
-use crate::drivetrain::clutch_state::{Guard, ModeCoefficients};
+use crate::drivetrain::clutch_state::{Coupling, Guard, ModeCoefficients};
+use crate::drivetrain::transmission::Account;
+use crate::equation::Accelerations;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -82,6 +84,44 @@ impl<S: Real> HybridSystem<S> {
     fn weight(&self, state: &HybridState<S>) -> Threshold<S> {
         let side = state.motion.side;
         self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
+    }
+
+    /// Static forces of the flywheels that hold a block, in `account` in the place of their largest: of the dry friction that rack and flywheels
+    /// have, each gives the share that the moment balance needs. The weight of a block on its base needs none.
+    #[inline(never)]
+    pub(super) fn share_out(
+        &self,
+        state: &HybridState<S>,
+        law: &ModeCoefficients<S>,
+        ground: Accelerations<S>,
+        account: &mut Account<S>,
+    ) {
+        let side = state.motion.side;
+        let parameters = &self.transmission.parameters;
+        // What would move the block towards `sign` without friction, over what friction there is.
+        let share = |sign: Sign| {
+            let threshold = self.breakaway(state, side, sign);
+            let most = threshold.dry;
+            let moves = threshold.at(ground) + most;
+            if moves > S::ZERO { (moves / most).smaller(S::ONE) } else { S::ZERO }
+        };
+        let (outward, inward) = (share(side), if state.motion.rotation == S::ZERO { S::ZERO } else { share(side.opposite()) });
+        let (sign, share) = if inward > outward { (side.opposite(), inward) } else { (side, outward) };
+        let mut forces = account.force;
+        for (force, wheel) in forces.iter_mut().zip(&state.device.wheels) {
+            match wheel.coupling {
+                Coupling::Locked => *force = *force - law.direction * (parameters.inertance * parameters.bearing_dry),
+                Coupling::Slipping(_) if wheel.spin == S::ZERO => *force = S::ZERO,
+                _ => {}
+            }
+        }
+        for (i, wheel) in self.carried_along(state, sign) {
+            let force = &mut forces[i & 1];
+            *force = *force + sign.times(share * parameters.standing_friction(wheel).0);
+        }
+        let less = forces[0] + forces[1] - (account.force[0] + account.force[1]);
+        account.rack_force = account.rack_force + parameters.load_share(&state.device) * less;
+        account.force = forces;
     }
 
     /// A held block goes, towards `sign`, as what moves it passes what holds it (`crossing`) or jumps beyond.

@@ -112,7 +112,29 @@ impl<S: Real> Threshold<S> {
     }
 }
 
+/// A flywheel that a standing rack would take along.
+fn sticks<S: Real>(wheel: &FlywheelState<S>) -> bool {
+    match wheel.coupling {
+        Coupling::Locked => true,
+        Coupling::Slipping(_) => wheel.spin == S::ZERO,
+        Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
+    }
+}
+
 impl<S: Real> HybridSystem<S> {
+    /// Flywheels that are coupled to a rack that begins to move towards `sign`, with their numbers.
+    pub(super) fn carried_along<'a>(
+        &self,
+        state: &'a HybridState<S>,
+        sign: Sign,
+    ) -> impl Iterator<Item = (usize, &'a FlywheelState<S>)> {
+        // An overrunning clutch holds one way, and lets go the other way.
+        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
+        let holds = move |index: usize| !one_way || index == wheel_for(sign);
+        let wheels = state.device.wheels.iter().enumerate();
+        wheels.filter(move |(index, wheel)| sticks(wheel) && holds(*index))
+    }
+
     /// Breakaway threshold of a block at θ̇ = 0, tilted to `side`, towards `sign`: weight and ground, against the friction of the rack and of
     /// the flywheels that are coupled to it. Forces of elastic clutches are taken as they are now.
     #[inline(never)]
@@ -125,16 +147,8 @@ impl<S: Real> HybridSystem<S> {
         let (mut dry, mut force) = ((parameters.rack_dry, S::ZERO), (S::ZERO, S::ZERO));
         let (mut push, mut support) = (parameters.rack_push, S::ZERO);
         let add = |(a, b): (S, S), (c, d): (S, S)| (a + c, b + d);
-        // An overrunning clutch holds one way, and lets go the other way.
-        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
-        let holds = |index: usize| !one_way || index == wheel_for(sign);
-        let sticks = |wheel: &FlywheelState<S>| match wheel.coupling {
-            Coupling::Locked => true,
-            Coupling::Slipping(_) => wheel.spin == S::ZERO,
-            Coupling::Open | Coupling::Viscous | Coupling::InPlay | Coupling::Elastic(_) | Coupling::Saturated(_) => false,
-        };
         let wheels = &state.device.wheels;
-        for (_, wheel) in wheels.iter().enumerate().filter(|(index, wheel)| sticks(wheel) && holds(*index)) {
+        for (_, wheel) in self.carried_along(state, sign) {
             let (friction, growth) = parameters.standing_friction(wheel);
             dry = add(dry, (friction * (S::ONE + parameters.load_friction), growth));
             push = push - parameters.support_push;

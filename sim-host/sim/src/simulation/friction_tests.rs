@@ -1,6 +1,7 @@
 //! Blocks whose devices have friction: the last bounces, which are summed in closed form, and the force of clutches that drag.
 
 use sprag_shared::math;
+use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::{GRAVITY, RECTANGLE_INERTIA_RATIO};
 
 use super::{DeviceRun, simulate};
@@ -70,4 +71,35 @@ fn the_force_on_the_support_has_the_drag_of_open_clutches() {
         simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0).peak_force_ratio.unwrap()
     });
     assert!(found[0] == found[1] && (found[0] / 0.208_49 - 1.0).abs() < 1e-4, "{found:?}");
+}
+
+/// Bearings that could hold much more give what a block that stands needs of them, ü_g/g − tan α, and share it with the rack by what each could
+/// hold.
+#[test]
+fn clutches_that_hold_a_block_down_press_as_statics_says() {
+    let clutches = [
+        ("engagement = 'rigid'", ", brake_deceleration_m_s2 = 0"),
+        ("engagement = 'overrunning'", ""),
+        ("clutch = { capacity_ratio = 0.6 }", ", brake_deceleration_m_s2 = 0"),
+    ];
+    let bearings = 0.5 * 10.0 / GRAVITY;
+    for ((clutch, brake), amplitude) in clutches.into_iter().flat_map(|clutch| [1.2, 2.0].map(|amplitude| (clutch, amplitude))) {
+        for rack in [0.0, 0.05] {
+            let text = format!(
+                "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG} }}
+                ground = [{{ motion = 'sine', amplitude_ratio = {amplitude}, frequency_ratio = 3.0 }}]
+                run = {{ free_time_s = 2.0 }}
+                device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {clutch}, rack = {{ dry_friction_ratio = {rack} }},
+                    flywheel = {{ dry_deceleration_m_s2 = 10.0{brake} }} }}]"
+            );
+            let scene = Scene::parse(&text, "scene").unwrap();
+            let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+            assert_eq!(run.outcome, Outcome::NoRocking, "{text}");
+            let push = (amplitude - 1.0) * math::tan(SLENDERNESS_DEG.to_radians());
+            // A commanded clutch is open until the push overcomes the rack.
+            let needed = if push > rack { push * bearings / (bearings + rack) } else { 0.0 };
+            let force = run.peak_force_ratio.unwrap();
+            assert!((force - needed).abs() < 1e-6, "{text}: {force} and {needed}");
+        }
+    }
 }
