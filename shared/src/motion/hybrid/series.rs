@@ -17,6 +17,9 @@ use crate::method::dense_output::DenseOutput;
 use crate::method::motion_series::{StepSeries, Truncation};
 use crate::method::taylor::Taylor;
 
+/// Last terms that are left of [`Guard::Below`], over the square of the plates' capacity: by so much a force may exceed it.
+const ABOVE_CAPACITY: f64 = 1e-7;
+
 /// [`Taylor`] with a tape for a device's unknowns and guards.
 pub type Series<S, const N: usize> = Taylor<S, N, DEVICE_SLOTS>;
 
@@ -143,7 +146,7 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
         let scale = start.system.slenderness.larger(start.place.rotation.abs());
         let tolerance = self.tolerance * scale;
         let sizes = start.known(Expansion { tape: &self.tape, output: &mut output, ground: &ground, tolerance, scale });
-        let SeriesModeOutput { series, unknowns, .. } = &mut output;
+        let SeriesModeOutput { series, unknowns, guards } = &mut output;
         if self.step.is_none() && series.terms == N {
             // Every unknown counts; those of the first order have one coefficient fewer.
             for order in [N - 2, N - 1] {
@@ -154,6 +157,17 @@ impl<S: Real, const N: usize> ModeIntegrator<S> for Series<S, N> {
                 }
                 for (unknown, &size) in unknowns.iter().zip(&sizes) {
                     series.shorten(order - 1, unknown[order - 1].abs() * (scale / size), tolerance);
+                }
+            }
+        }
+        let capacity = start.system.transmission.parameters.capacity;
+        if self.step.is_none() && capacity.is_finite() {
+            // The square of a force needs more terms than the force.
+            let terms = series.acceleration().len();
+            let squares = guards.iter().zip(&start.law.watch).filter(|(_, watch)| matches!(watch, Guard::Below(..)));
+            for (guard, _) in squares {
+                for order in [terms - 2, terms - 1] {
+                    series.shorten(order, guard[order].abs(), S::of(ABOVE_CAPACITY) * capacity * capacity);
                 }
             }
         }

@@ -44,6 +44,17 @@ fn a_limit_of_the_force_is_one_on_the_support() {
     assert!(checks.warnings.iter().any(|warning| warning.contains("0.0400") && warning.contains("limit is 0.03")), "{checks:?}");
 }
 
+/// Plates behind a stiff spring pass no more than their capacity, at a large tolerance too.
+#[test]
+fn a_spring_passes_no_more_than_its_plates() {
+    let clutch = "kind = 'clutched-pair'\nclutch = { capacity_ratio = 0.04, stiffness_ratio = 4000, damping_ratio = 1.5, backlash_m = 0.002 }";
+    for tolerance in ["1e-15", "1e-5"] {
+        let run = runs(5.0, clutch, &format!("[accuracy]\ntolerance = {tolerance}")).remove(0);
+        let force = run.peak_force_ratio.unwrap();
+        assert!((force / 0.04 - 1.0).abs() < 1e-6, "{force} at {tolerance}");
+    }
+}
+
 /// Holding power times the time for which histories show a clutch engaged, and an energy for each time that one closes.
 #[test]
 fn coils_take_power_while_they_hold_and_energy_to_close() {
