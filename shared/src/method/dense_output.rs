@@ -86,6 +86,8 @@ pub trait DenseOutput<S: Real> {
     }
 
     /// Largest |θ̈| between the times `from.0` and `to.0`, at which θ̈ is `from.1` and `to.1`, if above `floor`; else `floor`.
+    ///
+    /// The default sees what the ends show: enough for steps that are short beside the swings of θ̈.
     fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
         floor.larger(from.1.abs()).larger(to.1.abs())
     }

@@ -122,4 +122,58 @@ impl<S: Real, M: Mode<S>> DenseOutput<S> for Stretch<'_, S, M> {
         let [_, acceleration] = state.rates(self.system, self.ground(time)).turn();
         Motion { rotation, velocity, acceleration }
     }
+
+    /// Steps are long beside the swings of θ̈: a cubic through its ends and two instants between them shows where θ̈ may be larger. It does not
+    /// double within a step.
+    fn largest_acceleration(&self, from: (S, S), to: (S, S), floor: S) -> S {
+        let ends = from.1.abs().larger(to.1.abs());
+        let floor = floor.larger(ends);
+        if ends + ends <= floor {
+            return floor;
+        }
+        let third = (to.0 - from.0) * S::of(1.0 / 3.0);
+        let after = |thirds: S| self.at(from.0 + thirds * third).acceleration;
+        let inner = [S::ONE, S::of(2.0)].map(after);
+        let floor = floor.larger(inner[0].abs()).larger(inner[1].abs());
+        cubic_extremes([from.1, inner[0], inner[1], to.1])
+            .into_iter()
+            .flatten()
+            .fold(floor, |most, at| most.larger(after(at).abs()))
+    }
+}
+
+/// Where the cubic with these values at 0, 1, 2 and 3 has its extremes between 0 and 3.
+fn cubic_extremes<S: Real>([a, b, c, d]: [S; 4]) -> [Option<S>; 2] {
+    // Newton's form: a + first u + second u (u − 1) + third u (u − 1) (u − 2).
+    let first = b - a;
+    let second = S::HALF * (c - b - first);
+    let third = S::of(1.0 / 6.0) * (d - a + S::of(3.0) * (b - c));
+    let (square, slope, start) = (S::of(3.0) * third, S::of(2.0) * second - S::of(6.0) * third, first - second + third + third);
+    let discriminant = slope * slope - S::of(4.0) * square * start;
+    if discriminant < S::ZERO {
+        return [None; 2];
+    }
+    let sum = -S::HALF * (slope + Sign::of(slope, Sign::Positive).times(discriminant.square_root()));
+    // One that does not exist is not finite, and not between.
+    [sum / square, start / sum].map(|at| Some(at).filter(|at| *at > S::ZERO && *at < S::of(3.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_of_a_cubic() {
+        let of = |cubic: fn(f64) -> f64| cubic_extremes([0.0, 1.0, 2.0, 3.0].map(cubic));
+        let near = |found: Option<f64>, expected: f64| assert!((found.unwrap() - expected).abs() < 1e-12, "{found:?} {expected}");
+        // The slope is (u − 0.5)(u − 2.5); then one extreme outside; then a parabola, a line, and no extreme at all.
+        let [outer, inner] = of(|u| u * u * u / 3.0 - 1.5 * u * u + 1.25 * u + 7.0);
+        near(outer, 2.5);
+        near(inner, 0.5);
+        assert_eq!(of(|u| u * u * u / 3.0 - 2.5 * u * u + 4.0 * u).into_iter().flatten().count(), 1);
+        near(of(|u| 3.0 * u - u * u).into_iter().flatten().next(), 1.5);
+        assert_eq!(of(|u| 2.0 - u), [None; 2]);
+        assert_eq!(of(|_| 2.0), [None; 2]);
+        assert_eq!(of(|u| u * u * u + u), [None; 2]);
+    }
 }
