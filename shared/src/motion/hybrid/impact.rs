@@ -2,7 +2,7 @@
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, GUARDS};
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState, GUARDS};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
@@ -93,6 +93,7 @@ impl<S: Real> HybridSystem<S> {
         let traits = self.transmission.traits();
         // There clutches stay as they are while such a block is on one side.
         let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
+        let plates = self.transmission.parameters.capacity_of(&FlywheelState::default()).0;
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
@@ -100,26 +101,31 @@ impl<S: Real> HybridSystem<S> {
             let threshold = self.breakaway(&lifted, side, side);
             // What holds the block without dry friction, which acts against either way of motion.
             let held = -threshold.at(standing.ground) - threshold.dry;
-            let over = |inward: bool| {
+            let over = |inward: bool, load: S| {
                 let engaged = match carried {
                     true => S::count(lifted.device.locked()),
-                    // Swings as short as these leave a flywheel behind that slips viscously.
-                    false if self.transmission.slips_viscously() => S::ZERO,
+                    // Swings as short as these leave a flywheel behind that slips viscously or hangs on a spring.
+                    false if self.transmission.slips_viscously() || traits.springs => S::ZERO,
                     false if inward || traits.permanent => S::ONE,
                     false => S::ZERO,
                 };
+                let rate = |inertance: S, bearings: S| {
+                    let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
+                    let dry = arm * (rack_dry + bearings * (S::ONE + load));
+                    (if inward { held - dry } else { held + dry }) / inertia
+                };
                 let inertance = engaged * inertance;
-                // Outward the flywheel drives the rack.
-                let load = if inward { load_friction } else { -load_friction };
-                let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
-                let dry = arm * (rack_dry + inertance * bearing_dry * (S::ONE + load));
+                let locked = rate(inertance, inertance * bearing_dry);
                 if inward {
-                    ((held - dry) / inertia).larger(S::ZERO)
+                    // Plates pass no more than they can as they meet.
+                    let slips = if engaged > S::ZERO { rate(S::ZERO, engaged * plates) } else { locked };
+                    locked.larger(slips).larger(S::ZERO)
                 } else {
-                    ((held + dry) / inertia).larger(S::EPSILON * S::EPSILON)
+                    locked.larger(S::EPSILON * S::EPSILON)
                 }
             };
-            (over(false), over(true))
+            // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
+            (over(false, -load_friction).larger(over(false, load_friction)), over(true, load_friction))
         };
         Accumulation::of(rates(side), rates(side.opposite()), self.restitution[0], speed, self.counted_speed)
     }

@@ -12,8 +12,12 @@ const SLENDERNESS_DEG: f64 = 15.0;
 
 /// A block of R = 1 m that is let go, with `device`.
 fn run(device: &str, rest_speed_ratio: f64) -> DeviceRun {
+    started("initial_rotation_ratio = 0.5", device, rest_speed_ratio)
+}
+
+fn started(start: &str, device: &str, rest_speed_ratio: f64) -> DeviceRun {
     let text = format!(
-        "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG}, restitution = 0.9, initial_rotation_ratio = 0.5 }}
+        "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG}, restitution = 0.9, {start} }}
         device = [{{ mass_ratio = 1.0, {device} }}]
         run = {{ free_time_s = 20.0, rest_speed_ratio = {rest_speed_ratio:e} }}"
     );
@@ -37,6 +41,50 @@ fn the_rest_threshold_does_not_show_beside_dry_friction() {
             assert_eq!(run.impacts, followed.impacts, "{device}");
             assert!((run.end_time_s / followed.end_time_s - 1.0).abs() < 2e-3, "{device}: {} {}", run.end_time_s, followed.end_time_s);
         }
+    }
+}
+
+/// Swings as short as the summed ones make weak plates slip, and leave behind what hangs on a spring.
+#[test]
+fn the_rest_threshold_does_not_show_beside_clutches() {
+    for device in [
+        "kind = 'clutched-pair', clutch = { capacity_ratio = 0.02 }, flywheel = { brake_deceleration_m_s2 = 'instant' }",
+        "kind = 'clutched-pair', clutch = { stiffness_ratio = 100, damping_ratio = 0.2 }, flywheel = { brake_deceleration_m_s2 = 'instant' }",
+    ] {
+        let [followed, summed @ ..] = [1e-9, 1e-6, 1e-4].map(|speed| run(device, speed));
+        for run in summed {
+            assert!(run.impacts.abs_diff(followed.impacts) <= 1, "{device}: {} {}", run.impacts, followed.impacts);
+            assert!(
+                (run.end_time_s / followed.end_time_s - 1.0).abs() < 2e-4,
+                "{device}: {} {}",
+                run.end_time_s,
+                followed.end_time_s
+            );
+        }
+    }
+}
+
+/// A block that sets out so slowly that its rates are constant is at rest after v (1/a₁ + 1/√(a₁a₂))/(1 − η √(a₂/a₁)), with a₁ as it rises and a₂ as it
+/// falls. The bearings of the last inerter slow its flywheel down faster than the weight does the block, so that the rack drives it outward too.
+#[test]
+fn the_last_bounces_end_in_closed_form() {
+    let alpha = SLENDERNESS_DEG.to_radians();
+    let (weight, lever) = (GRAVITY * math::sin(alpha), math::cos(alpha));
+    for (rack, bearings, mesh, drives) in
+        [(0.1, 0.0, 0.0, true), (0.0, 1.0, 0.0, true), (0.0, 0.0, 0.5, true), (0.05, 0.6, 0.3, true), (0.0, 2.0, 0.2, false)]
+    {
+        let device = format!(
+            "{INERTER}, flywheel = {{ dry_deceleration_m_s2 = {bearings} }}, rack = {{ dry_friction_ratio = {rack}, load_friction = {mesh} }}"
+        );
+        let rate = |way: f64, load: f64| {
+            (weight + way * (rack * GRAVITY + load * bearings) * lever) / (RECTANGLE_INERTIA_RATIO + load * lever * lever)
+        };
+        let (rises, falls) = (rate(1.0, if drives { 1.0 - mesh } else { 1.0 + mesh }), rate(-1.0, 1.0 + mesh));
+        let speed = 1e-5 * math::square_root(GRAVITY / RECTANGLE_INERTIA_RATIO) * alpha;
+        let swing = speed * (1.0 / rises + 1.0 / math::square_root(rises * falls));
+        let expected = swing / (1.0 - 0.9 * math::square_root(falls / rises));
+        let found = started("initial_velocity_ratio = 1e-5", &device, 1e-2).end_time_s;
+        assert!((found / expected - 1.0).abs() < 1e-4, "{device}: {found} and {expected}");
     }
 }
 
