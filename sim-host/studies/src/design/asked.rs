@@ -29,7 +29,7 @@ pub struct Asked {
     pub block_acceleration: Extreme<f64>,
     /// Horizontal acceleration of the ground, m/s².
     pub ground_acceleration: Extreme<f64>,
-    /// Jump of θ̇ at an impact or a jolt, rad/s.
+    /// Jump of the velocity of the centre of mass at an impact or a jolt, m/s.
     pub jump: Extreme<f64>,
     /// What the coils did, of clutches that have some.
     pub coils: Option<CoilUse>,
@@ -40,6 +40,9 @@ pub struct Asked {
     /// How accurate that is, where it was asked for.
     pub error: Option<ErrorEstimate>,
 }
+
+/// |θ| below which a jump is an impact, rad.
+const IMPACT: f64 = 1e-9;
 
 impl Asked {
     /// Of `run`, with a history and checks, of the only device of `scene` under `ground`.
@@ -61,7 +64,15 @@ impl Asked {
         let upwards = GRAVITY + ground.vertical.as_ref().map_or(0.0, |vertical| vertical.peak_m_s2());
         let mut jump = Extreme { value: 0.0, time: 0.0 };
         for pair in samples.windows(2).filter(|pair| pair[0].time_s == pair[1].time_s) {
-            let value = (pair[1].velocity_rad_s - pair[0].velocity_rad_s).abs();
+            let (before, after) = (pair[0].velocity_rad_s, pair[1].velocity_rad_s);
+            let slenderness = scene.block.slenderness();
+            let (sine, cosine) = (sprag_shared::math::sin(slenderness), sprag_shared::math::cos(slenderness));
+            // At an impact the block goes down about one toe and up about the other.
+            let value = if pair[1].rotation_rad.abs() < IMPACT {
+                size * hypotenuse(cosine * (after - before), sine * (after.abs() + before.abs()))
+            } else {
+                size * (after - before).abs()
+            };
             if value > jump.value {
                 jump = Extreme { value, time: pair[0].time_s };
             }

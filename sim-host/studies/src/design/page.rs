@@ -232,8 +232,7 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
     }
     let of_sensors = findings.lists.iter().filter(|list| list.sensors.is_some());
     if let Some(jump) = of_sensors.filter_map(|list| list.jump.as_ref()).map(|jump| jump.value).reduce(f64::max) {
-        let size = problem.scene.block.size();
-        let shock = std::f64::consts::FRAC_PI_2 * size * jump / CONTACT_S / sprag_shared::structure::block::GRAVITY;
+        let shock = std::f64::consts::FRAC_PI_2 * jump / CONTACT_S / sprag_shared::structure::block::GRAVITY;
         limit(format!(
             "The ranges of sensors do not cover the shock of an impact ({} g at the centre of mass if the contact lasts 1 ms): readings saturate for so long.",
             figures(shock)

@@ -78,7 +78,7 @@ pub struct PartsList {
     pub friction_needed: Option<f64>,
     /// Motions under which the toe would leave the ground.
     pub contact_lost: usize,
-    /// Largest jump of θ̇ at an impact, rad/s.
+    /// Largest jump of the velocity of the centre of mass at an impact, m/s.
     pub jump: Option<Largest>,
     /// What it asks for under each motion.
     #[serde(skip)]

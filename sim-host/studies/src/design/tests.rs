@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
+use sprag_sim::simulation::simulate;
 
+use super::asked::Asked;
 use super::basis::Basis;
 use super::largest::Largest;
 use super::page::page;
@@ -72,4 +74,22 @@ fn sensors_and_coils_are_those_of_both_runs() {
         larger += usize::from(item.chosen_clutches);
     }
     assert!(larger > 0, "the chosen clutches ask for more of one of them: {built:?}");
+}
+
+/// An impact that keeps all of θ̇ turns the velocity of the centre of mass from down to up: by 2 R sin α |θ̇|, and θ̇² = 2 p² (cos(α − θ₀) − cos α)
+/// after a release from θ₀.
+#[test]
+fn an_impact_jolts_upwards_too() {
+    let text = "block = { size_m = 2.0, slenderness_deg = 20.0, mass_kg = 1e4, restitution = 1.0, initial_rotation_ratio = 0.5 }
+        device = [{ kind = 'none' }]
+        ground = [{ motion = 'sine', amplitude_ratio = 1e-12, frequency_ratio = 4.0 }]
+        output = { interval_s = 0.01 }";
+    let scene = Scene::parse(text, "scene").unwrap();
+    let ground = scene.ground_motions().unwrap();
+    let run = simulate(&scene, &ground, &Interrupt::default()).unwrap().remove(0);
+    let slenderness = 20.0_f64.to_radians();
+    let square = 2.0 * 0.75 * GRAVITY / 2.0 * ((0.5 * slenderness).cos() - slenderness.cos());
+    let jump = 2.0 * 2.0 * slenderness.sin() * square.sqrt();
+    let found = Asked::of(&scene, &ground, &run).jump.value;
+    assert!((found / jump - 1.0).abs() < 1e-9, "{found} {jump}");
 }
