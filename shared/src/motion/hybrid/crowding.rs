@@ -9,6 +9,9 @@ use crate::motion::state::{Phase, Stopped};
 /// the motion continues, anew each time.
 pub(super) const MOST_AT_ONCE: u32 = 16;
 
+/// Number of events at once that no graze has: time stands still.
+pub(super) const ENDLESS: u32 = 1000;
+
 /// Largest time between events at once, in 1/p.
 const AT_ONCE: f64 = 1e-9;
 

@@ -42,7 +42,7 @@ use crate::motion::device_snapshot::Snapshot;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 use crate::structure::RestitutionScatter;
-use crowding::{GRAZE, MOST_AT_ONCE, STEPS_PER_EVENT, crowded, too_many};
+use crowding::{ENDLESS, GRAZE, MOST_AT_ONCE, STEPS_PER_EVENT, crowded, too_many};
 use mode_output::{ModeIntegrator, ModeOutput, ModeStart, Place, Shaking};
 use seen::Seen;
 
@@ -181,7 +181,7 @@ impl<S: Real> HybridSystem<S> {
         let Progress { time, tick, events, steps, at_once } = progress;
         // 1/p.
         let unit = self.slenderness / self.speed;
-        if *events >= limits.events {
+        if *events >= limits.events || *at_once >= ENDLESS {
             return Err(too_many(state, *time));
         }
         if *steps / STEPS_PER_EVENT >= limits.events {

@@ -72,8 +72,8 @@ impl<S: Real> Threshold<S> {
         }
     }
 
-    /// First instant in [`from`, `to`) at which it is above zero and not about to fall below, and whether it gets there by crossing zero
-    /// or by a jump. It grows from `from` on.
+    /// First instant in [`from`, `to`) at which it is above zero by more than rounding, or rises through zero, and whether it gets there by
+    /// crossing zero or by a jump. It grows from `from` on.
     pub(super) fn exceeded(&self, shaking: Shaking<'_, S>, from: S, to: S) -> Option<(S, bool)> {
         let (push, rate) = self.decay;
         let value = |t: S| {
@@ -94,10 +94,9 @@ impl<S: Real> Threshold<S> {
         let ground = shaking.at(from);
         let (now, slope) = value(from);
         let above = now > S::ZERO;
-        if self.is_exceeded(ground) || (above && slope >= S::ZERO) {
-            return Some((from, !self.is_exceeded(ground)));
+        if self.is_exceeded(ground) {
+            return Some((from, false));
         }
-        let (end, _) = value(to);
         let mut curvature = self.horizontal.abs() * shaking.horizontal.curvature_bound();
         if let Some(vertical) = shaking.vertical {
             curvature = curvature + self.vertical.abs() * vertical.curvature_bound();
@@ -106,7 +105,18 @@ impl<S: Real> Threshold<S> {
             curvature = curvature + self.support.abs() * support.curvature_bound();
         }
         curvature = curvature + push.abs() * rate * rate;
-        let zero = first_zero_of(value, curvature, (from, to, end), Sign::Negative, above);
+        let rounding = self.rounding(ground);
+        if above && slope > S::ZERO && slope * slope > S::of(2.0) * curvature * rounding {
+            return Some((from, true));
+        }
+        // A rise that may turn within rounding moves nothing before it is more than that.
+        let least = if above && slope >= S::ZERO { rounding } else { S::ZERO };
+        let above_least = |t: S| {
+            let (value, slope) = value(t);
+            (value - least, slope)
+        };
+        let zero =
+            first_zero_of(above_least, curvature, (from, to, value(to).0 - least), Sign::Negative, above && least == S::ZERO);
         // A breakaway within rounding of the segment's end belongs to the next segment.
         zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use super::{Shake, Watcher, pair, shake, sine, structure, tight};
+use super::{Shake, Watcher, drivetrains, pair, shake, sine, structure, tight};
 use crate::equation::body::Body;
 use crate::ground::{AnySegment, Linear};
 use crate::math;
@@ -17,7 +17,7 @@ use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::Structure;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses};
+use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 
 /// Friction of the bearings, m/s²: the typical one.
 const DRY: f64 = 0.05;
@@ -301,6 +301,28 @@ fn a_block_that_is_held_on_its_base_has_not_rocked() {
             let seen = shake.machine(&bearings(engagement), &tight());
             let count = seen.events.iter().filter(|(event, _)| *event == Event::Uplift).count();
             assert_eq!((count, seen.peak > 0.0), (uplifts, uplifts > 0), "{engagement:?} {push}: {:?}", seen.events);
+        }
+    }
+}
+
+/// Ground whose largest acceleration is the uplift threshold, but for rounding, moves no block, and time goes on.
+#[test]
+fn a_push_that_ends_at_the_threshold_moves_nothing() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        for (degrees, frequency) in (5..25).flat_map(|degrees| [0.5, 1.0, 7.0].map(|frequency| (f64::from(degrees), frequency))) {
+            for (name, drivetrain) in drivetrains() {
+                let drivetrain = Drivetrain { rack: Rack::default(), support: Support::default(), ..drivetrain };
+                let block = structure(geometry, degrees, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+                for rounding in [-1.0, 0.0, 1.0] {
+                    let mut shake = shake(block, 1.0, frequency);
+                    let AnySegment::Sine(wave) = &mut shake.pieces[0].0 else { unreachable!() };
+                    wave.terms[0].phase = core::f64::consts::FRAC_PI_2;
+                    wave.terms[0].amplitude *= 1.0 + rounding * f64::EPSILON;
+                    let seen = shake.machine(&drivetrain, &tight());
+                    assert!(seen.peak < 1e-14, "{geometry:?} {degrees} {frequency} {name}: {}", seen.peak);
+                    assert!(seen.events.len() < 100, "{geometry:?} {degrees} {frequency} {name}: {}", seen.events.len());
+                }
+            }
         }
     }
 }
