@@ -37,6 +37,13 @@ impl<O: PartialEq> Compared<O> {
     fn ends_like(&self, other: &Compared<O>) -> bool {
         self.outcome == other.outcome && self.first_impact_time.is_some() == other.first_impact_time.is_some()
     }
+
+    /// Whether something is equal in both to the last bit: steps that no tolerance limits make the same run of two tolerances, which says
+    /// nothing about the error of either.
+    pub fn repeats(&self, other: &Compared<O>) -> bool {
+        let same = |value: fn(&Compared<O>) -> Option<f64>| value(self).is_some() && value(self) == value(other);
+        same(|of| of.peak_rotation) || same(|of| of.peak_acceleration) || same(|of| of.first_impact_time)
+    }
 }
 
 /// How the checks were followed.
@@ -52,7 +59,6 @@ impl Checks {
     /// By how much differences are enlarged, and the relative error that no comparison can exclude.
     fn margins(self) -> (f64, f64) {
         match self {
-            // Runs whose steps are not limited by the tolerance are the same, and err alike.
             Checks::Closer(tolerance) => (1.5, 1e-14 + 100.0 * tolerance),
             Checks::AsClose => (6.0, 4e-15),
         }

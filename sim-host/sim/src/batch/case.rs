@@ -163,3 +163,31 @@ impl From<&Case> for PulsedBlock {
         PulsedBlock { plain, pulse, frequency_ratio, amplitude_ratio }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pulse of many waves to a step: no tolerance of the levels limits what ends its series. The largest |θ̈|/(p²α) comes as the ground turns,
+    /// where that of the block is 3 + 1 − |θ|/α.
+    #[test]
+    fn errors_of_short_pulses_are_those_that_are_there() {
+        let case = Case {
+            geometry: Geometry::Slender,
+            slenderness: 10.0_f64.to_radians(),
+            device: DeviceKind::None,
+            mass_ratio: 0.0,
+            restitution: 0.0,
+            pulse: PulseShape::Cosine,
+            frequency_ratio: 1e4,
+            amplitude_ratio: -3.0,
+            free_time: 20.0,
+            rest_speed: 1e-6,
+        };
+        for accuracy in [Accuracy::Fast, Accuracy::Error(1e-3), Accuracy::Error(1e-6), Accuracy::Normal, Accuracy::Tight] {
+            let found = case.answer(accuracy).unwrap();
+            let error = (found.result.peak_acceleration - 3.999_999_989_35).abs();
+            assert!(error <= found.error.peak_acceleration + 1e-11, "{accuracy}: {error:e} {:?}", found.error);
+        }
+    }
+}
