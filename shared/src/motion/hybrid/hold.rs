@@ -1,4 +1,4 @@
-//! Sticking of the block by dry friction of rack and bearings: tilted, where it turns, or on its base, where clutches engage as it starts.
+//! Sticking of flywheels, and of the block by dry friction of rack and bearings: tilted, where it turns, or on its base, where clutches engage as it starts.
 
 use super::mode_output::{ModeIntegrator, Shaking};
 use super::threshold::{Threshold, earlier};
@@ -122,6 +122,16 @@ impl<S: Real> HybridSystem<S> {
         let less = forces[0] + forces[1] - (account.force[0] + account.force[1]);
         account.rack_force = account.rack_force + parameters.load_share(&state.device) * less;
         account.force = forces;
+    }
+
+    /// A flywheel has come to a stop; what acts on it decides which way it continues, if at all.
+    pub(super) fn stopped(&self, state: &mut HybridState<S>, index: usize) {
+        let law = self.law(state);
+        let point = self.point(&law, state.motion.side, &self.place(state));
+        let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
+        let wheel = &mut state.device.wheels[index & 1];
+        wheel.spin = S::ZERO;
+        self.transmission.parameters.settle(wheel, force);
     }
 
     /// A held block goes, towards `sign`, as what moves it passes what holds it (`crossing`) or jumps beyond.

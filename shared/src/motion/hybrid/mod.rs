@@ -272,10 +272,9 @@ impl<S: Real> HybridSystem<S> {
         let mut until = length;
         let mut end = End::Reached;
         let signs_change = !output.keeps_signs(motion.direction);
-        if signs_change
-            && !held
-            && let Some(turn) = output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO)
-        {
+        let turn_by = |until| output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO);
+        let turn = if signs_change && !held { turn_by(until) } else { None };
+        if let Some(turn) = turn {
             (until, end) = (turn, End::Turn);
         }
         for guard in 0..traits.guards {
@@ -292,11 +291,20 @@ impl<S: Real> HybridSystem<S> {
             let stops = wheel.coupling != Coupling::Locked && self.transmission.parameters.dry_of(wheel) > S::ZERO;
             if let (Some(turning), true) = (wheel.turning, stops)
                 && let Some(zero) = output.unknown_zero(i, until, turning, wheel.spin == S::ZERO)
+                // In a graze rounding alone stops at once what has just begun to turn.
+                && (guarded || *time + zero > *time)
             {
                 (until, end) = (zero, End::Stopped(i));
             }
         }
         let mut last = output.at(until);
+        if let Some(turn) = turn
+            && until > S::ZERO
+            && motion.direction.times(last.velocity) <= S::ZERO
+        {
+            // What else is zero where the block turns waits for the turn: a flywheel that is held slips by the speed of the rack.
+            (until, end, last) = (turn, End::Turn, output.at(turn));
+        }
         // θ is monotone up to here.
         if let Some((level, before)) = motion.passes(last.rotation, limits) {
             until = output.crossing(level, before, (S::ZERO, until));
@@ -384,16 +392,6 @@ impl<S: Real> HybridSystem<S> {
             End::Stopped(wheel) => self.stopped(state, wheel),
         }
         end != End::Reached
-    }
-
-    /// A flywheel has come to a stop; what acts on it decides which way it continues, if at all.
-    fn stopped(&self, state: &mut HybridState<S>, index: usize) {
-        let law = self.law(state);
-        let point = self.point(&law, state.motion.side, &self.place(state));
-        let force = self.transmission.account(&point, S::ZERO, &state.device).force[index & 1];
-        let wheel = &mut state.device.wheels[index & 1];
-        wheel.spin = S::ZERO;
-        self.transmission.parameters.settle(wheel, force);
     }
 
     /// Answer of the device to an event; a change of its coupling is reported.

@@ -114,6 +114,7 @@ impl Case {
         method.advance(&system, &mut state, &pulse, duration, &limits(amplitude.abs()), &mut peaks)?;
         peaks.origin = duration;
         method.advance(&system, &mut state, &Harmonics::QUIET, self.free_time, &limits(0.0), &mut peaks)?;
+        state.end(limits(0.0).overturned, self.free_time, &mut peaks);
         let outcome = Outcome::of(&state, &peaks);
         Ok(CaseResult {
             outcome,
@@ -188,6 +189,23 @@ mod tests {
             let found = case.answer(accuracy).unwrap();
             let error = (found.result.peak_acceleration - 3.999_999_989_35).abs();
             assert!(error <= found.error.peak_acceleration + 1e-11, "{accuracy}: {error:e} {:?}", found.error);
+        }
+    }
+
+    /// A block that moves outward beyond α as the ground stops has overturned, whether it is followed further or not.
+    #[test]
+    fn a_block_that_falls_as_its_pulse_ends_has_overturned() {
+        let falls = Case {
+            geometry: Geometry::Slender,
+            slenderness: 10.0_f64.to_radians(),
+            restitution: 0.9,
+            frequency_ratio: 3.562,
+            amplitude_ratio: 7.1,
+            ..Case::default()
+        };
+        for free_time in [0.0, 0.5] {
+            let found = Case { free_time, ..falls }.answer(Accuracy::Normal).unwrap();
+            assert_eq!(found.result.outcome, Outcome::OverturnedWithoutImpact, "{free_time}");
         }
     }
 }

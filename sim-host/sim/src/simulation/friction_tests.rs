@@ -151,3 +151,49 @@ fn clutches_that_hold_a_block_down_press_as_statics_says() {
         }
     }
 }
+
+/// Bearings hold a flywheel at 0 while plates slip, by the speed of the rack alone: they stop slipping where the block turns, at one instant.
+#[test]
+fn a_turn_over_a_held_flywheel_is_a_turn_at_any_step() {
+    for (block, device, ground) in [
+        (
+            "size_m = 2.391, slenderness_deg = 6.329, restitution = 0.92",
+            "mass_ratio = 1.804, clutch = { capacity_ratio = 0.4069 }, flywheel = { dry_deceleration_m_s2 = 1.504 },
+            actuation = { engagement_delay_s = 0.0106, release_delay_s = 0.0255, time_constant_s = 0.0652 }",
+            "motion = 'sine', amplitude_ratio = 4.867, frequency_ratio = 3.612",
+        ),
+        (
+            "size_m = 4.201, slenderness_deg = 20.663, restitution = 0.874",
+            "mass_ratio = 0.533, clutch = { capacity_ratio = 0.0267 }, flywheel = { dry_deceleration_m_s2 = 0.369 },
+            actuation = { engagement_delay_s = 0.0197, release_delay_s = 0.0238, rise_time_s = 0.0287 }",
+            "motion = 'cosine', amplitude_ratio = -1.156, frequency_ratio = 3.108",
+        ),
+        (
+            "size_m = 2.554, slenderness_deg = 9.103, restitution = 0.797",
+            "mass_ratio = 2.15, clutch = { capacity_ratio = 0.6499 }, flywheel = { dry_deceleration_m_s2 = 2.102 },
+            actuation = { engagement_delay_s = 0.0315, release_delay_s = 0.047, time_constant_s = 0.0838 }",
+            "motion = 'sine', amplitude_ratio = 1.115, frequency_ratio = 1.058",
+        ),
+    ] {
+        let peak = |accuracy: &str| {
+            let text = format!(
+                "block = {{ {block} }}
+                device = [{{ kind = 'clutched-pair', {device} }}]
+                ground = [{{ {ground} }}]
+                run = {{ free_time_ratio = 8 }}
+                accuracy = {{ {accuracy} }}"
+            );
+            let scene = Scene::parse(&text, "scene").unwrap();
+            let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+            run.peak_rotation.unwrap()
+        };
+        let found = peak("");
+        for accuracy in ["tolerance = 1e-12", "tolerance = 1e-17"] {
+            assert!((peak(accuracy) / found - 1.0).abs() < 1e-8, "{block} {accuracy}: {} {found}", peak(accuracy));
+        }
+        for step in [1e-3, 5e-4, 3.1e-4, 1e-4] {
+            let stepped = peak(&format!("method = 'runge-kutta-4', step_ratio = {step}"));
+            assert!((stepped / found - 1.0).abs() < 1e-3, "{block} {step}: {stepped} {found}");
+        }
+    }
+}
