@@ -76,9 +76,6 @@ impl LoopOf {
 }
 
 /// The loop as `sprag loop` runs it, and how closely that follows the plant.
-///
-/// # Errors
-/// [`LoopFailure`].
 pub fn run(
     desk: &LoopScene,
     index: usize,

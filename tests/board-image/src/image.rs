@@ -39,9 +39,6 @@ const LOADED: u32 = 1;
 
 impl Image {
     /// Reads the file at `path`.
-    ///
-    /// # Errors
-    /// [`ImageError`].
     pub fn load(path: &Path) -> Result<Image, ImageError> {
         let bytes = std::fs::read(path).map_err(|error| ImageError::Unreadable(path.to_owned(), error))?;
         Image::of(&bytes).ok_or_else(|| ImageError::NoElf(path.to_owned()))

@@ -32,18 +32,12 @@ pub fn run(scene: &Scene) -> Result<Columns, PageError> {
 }
 
 /// The runs of every device.
-///
-/// # Errors
-/// [`PageError`].
 pub fn responses(scene: &Scene) -> Result<Vec<DeviceRun>, PageError> {
     let ground = scene.ground_motions().map_err(PageError::failed)?;
     simulate(scene, &ground, &Interrupt::default()).map_err(PageError::failed)
 }
 
 /// A response as a table; its summary is JSON.
-///
-/// # Errors
-/// [`PageError`].
 pub fn response(run: &DeviceRun) -> Result<Columns, PageError> {
     let samples = &run.history.samples;
     let numbers = |pick: fn(&Sample) -> f64| Column::Numbers(samples.iter().map(pick).collect());

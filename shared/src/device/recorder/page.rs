@@ -136,9 +136,6 @@ pub enum PageError {
 
 impl<'a> Page<'a> {
     /// The page that these [`PAGE_BYTES`] hold.
-    ///
-    /// # Errors
-    /// [`PageError`].
     pub fn of(bytes: &'a [u8]) -> Result<Page<'a>, PageError> {
         let (head, rest) = bytes.split_at_checked(HEADER_BYTES).ok_or(PageError::Foreign)?;
         let Some(header) = Header::of(&words(head)) else {

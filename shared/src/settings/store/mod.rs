@@ -103,9 +103,6 @@ impl<F: NorFlash> Store<F> {
     }
 
     /// Adds `settings` to both sectors. Programs blank flash only.
-    ///
-    /// # Errors
-    /// [`StoreError`].
     pub fn store(&mut self, settings: &Settings) -> Result<(), StoreError> {
         if !(self.takes(0) && self.takes(1)) {
             return Err(StoreError::Full);

@@ -54,9 +54,6 @@ pub struct DeviceInfo {
 
 impl DeviceInfo {
     /// Asks a device.
-    ///
-    /// # Errors
-    /// [`DeviceError`].
     pub fn of<L: Line>(session: &mut Session<L>) -> Result<DeviceInfo, DeviceError> {
         let (identity, state) = (session.identify()?, session.state()?);
         let period = f64::from(parameters::read(session)?.period());

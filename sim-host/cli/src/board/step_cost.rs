@@ -20,9 +20,6 @@ pub enum BoardError {
 }
 
 /// Measures in the emulator, with the image at `image` or with one built for it.
-///
-/// # Errors
-/// [`BoardError`].
 pub fn measure(image: Option<&Path>) -> Result<Board, BoardError> {
     let image = match image {
         Some(image) => image.to_owned(),

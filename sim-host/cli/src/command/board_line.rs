@@ -50,9 +50,6 @@ pub struct Connected {
 }
 
 /// Finds the device, or builds and starts one.
-///
-/// # Errors
-/// [`DeviceError`].
 pub fn connect(arguments: &LineArguments) -> Result<Connected, DeviceError> {
     if let Some(port) = &arguments.port {
         return Ok(Connected { line: serial::open(port)?, log: None });

@@ -115,9 +115,6 @@ impl Context<'_> {
     }
 
     /// Ends work that the user has asked to stop.
-    ///
-    /// # Errors
-    /// [`Interrupted`].
     pub fn check_interrupt(&self) -> Result<(), Interrupted> {
         if self.interrupt.is_set() { Err(Interrupted) } else { Ok(()) }
     }

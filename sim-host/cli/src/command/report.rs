@@ -67,9 +67,6 @@ impl Report {
     }
 
     /// Writes `summary.json`: `input` is the scene or study as resolved, `subject` has the files that were read.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn summary(
         &mut self,
         input: impl Serialize,
@@ -84,9 +81,6 @@ impl Report {
     }
 
     /// Writes the document `name`, which `--json` prints.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn document(&mut self, name: &str, document: &impl Serialize) -> Result<(), OutputError> {
         let failed = |error| OutputError { path: self.folder.join(name), reason: format!("cannot be written: {error}") };
         self.summary = serde_json::to_string_pretty(document).map_err(failed)? + "\n";
@@ -94,9 +88,6 @@ impl Report {
     }
 
     /// Writes a file through `fill`.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn file(
         &mut self,
         name: &str,
@@ -106,17 +97,11 @@ impl Report {
     }
 
     /// Writes a page of text.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn page(&mut self, name: &str, text: &str) -> Result<(), OutputError> {
         self.file(name, |file| file.write_all(text.as_bytes()))
     }
 
     /// Writes a table in all formats.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn table(&mut self, name: &str, table: &dyn Table) -> Result<(), OutputError> {
         self.results.add_table(&self.folder, name, table, &self.made_by, self.formats)
     }
@@ -140,9 +125,6 @@ impl Report {
 
     /// Writes the table `name` of `rows` in the other formats. As CSV it comes to its place with all other files: results of two runs are
     /// never mixed.
-    ///
-    /// # Errors
-    /// [`OutputError`].
     pub fn rows(&mut self, name: &str, rows: Rows, columns: &[Column]) -> Result<(), OutputError> {
         if self.formats.parquet {
             let path = self.folder.join(format!("{name}.parquet"));

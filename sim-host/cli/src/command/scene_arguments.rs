@@ -23,9 +23,6 @@ impl SceneArguments {
     }
 
     /// The scene, with one more change.
-    ///
-    /// # Errors
-    /// [`SceneError`].
     pub fn load(&self, more: Option<String>) -> Result<Scene, SceneError> {
         Scene::load(&self.scene, &self.changes(more))
     }

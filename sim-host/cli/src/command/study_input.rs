@@ -33,9 +33,6 @@ pub struct StudyArguments {
 
 impl StudyArguments {
     /// The study, with one more `change` of its structures.
-    ///
-    /// # Errors
-    /// [`StudyError`].
     pub fn load(&self, change: Option<String>) -> Result<Study, StudyError> {
         let mut changes = self.set.clone();
         changes.extend(change);

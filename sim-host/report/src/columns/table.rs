@@ -31,9 +31,6 @@ pub trait Table {
 }
 
 /// Writes `table` to `out` as CSV.
-///
-/// # Errors
-/// [`TableError`].
 pub fn write_csv(table: &dyn Table, out: impl Write) -> Result<(), TableError> {
     let mut writer = CsvWriter::new(table.columns(), out)?;
     table.rows(&mut writer)?;
@@ -41,9 +38,6 @@ pub fn write_csv(table: &dyn Table, out: impl Write) -> Result<(), TableError> {
 }
 
 /// Writes `table` to `out` as Parquet that carries `metadata`.
-///
-/// # Errors
-/// [`TableError`].
 pub fn write_parquet(table: &dyn Table, metadata: &Metadata, out: impl Write + Send) -> Result<(), TableError> {
     let mut writer = ParquetWriter::new(table.columns(), metadata, out)?;
     table.rows(&mut writer)?;

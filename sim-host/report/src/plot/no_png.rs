@@ -15,9 +15,6 @@ pub struct Png {
 }
 
 /// Refuses to draw.
-///
-/// # Errors
-/// [`PngError`].
 pub fn png(_svg: &str) -> Result<Png, PngError> {
     Err(PngError(Part::PNG))
 }

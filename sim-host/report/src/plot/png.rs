@@ -43,9 +43,6 @@ pub enum PngError {
 }
 
 /// Draws the figure `svg` with three dots a pixel, on white. The same figure is the same bytes.
-///
-/// # Errors
-/// [`PngError`].
 pub fn png(svg: &str) -> Result<Png, PngError> {
     let tree = tree(svg)?;
     let dots = |length: f32| (length * SCALE).round() as u32;

@@ -64,9 +64,6 @@ pub struct Bound {
 impl LoopTask<'_> {
     /// What the clutches could do for the block of this loop if the ground motion were known, from rest and under level ground; none for a
     /// device that is neither an ideal clutched pair nor a rigid one. Sensors and delays do not matter.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn clairvoyant(&self, grid: &Grid) -> Result<Option<Bound>, LoopFailure> {
         let Some(rocker) = Rocker::of(&self.machine()?, self.scene.geometry()) else { return Ok(None) };
         let found = search(&rocker, &self.ground.horizontal, grid);

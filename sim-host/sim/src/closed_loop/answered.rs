@@ -62,17 +62,11 @@ impl<'a> LoopTask<'a> {
 
     /// Runs the loop as accurately as the scene asks. Gives the task as it was run, so that another controller can be put into the same
     /// loop; the error where one was asked for; and what was seen.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn answered<T: TickObserver + Default>(self) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
         self.answered_by(LoopTask::driver)
     }
 
     /// [`LoopTask::answered`] with any `driver`, which is made anew for each run.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn answered_by<T: TickObserver + Default>(
         self,
         driver: impl Fn(&LoopTask<'a>) -> Result<Box<dyn Driver>, ParameterError>,

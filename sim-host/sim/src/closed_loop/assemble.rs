@@ -261,18 +261,12 @@ impl<'a> LoopTask<'a> {
     }
 
     /// Runs the loop with the law of its table.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn run(&self, watcher: &mut dyn Watcher, observer: &mut dyn TickObserver) -> Result<Ending, LoopFailure> {
         let mut driver = self.driver()?;
         self.run_with(&mut *driver, &mut (), watcher, observer)
     }
 
     /// Runs the loop with any controller, and with whatever goes wrong.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn run_with(
         &self,
         driver: &mut dyn Driver,
@@ -311,9 +305,6 @@ impl<'a> LoopTask<'a> {
     }
 
     /// The same device as the paper has it, without a controller: ideal engagement, nothing lost, nothing late.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn ideal(&self) -> Result<crate::simulation::DeviceRun, LoopFailure> {
         let mut scene = self.scene.clone();
         scene.devices[self.index].drivetrain = Drivetrain { engagement: Engagement::Ideal, ..Drivetrain::default() };

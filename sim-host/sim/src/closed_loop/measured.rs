@@ -23,17 +23,11 @@ impl TickObserver for Commanded {
 impl LoopTask<'_> {
     /// Runs the loop by the law of its table. The coils take what the controller commands, also while the block stands with its clutches
     /// engaged.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn measured(&self) -> Result<DeviceRun, LoopFailure> {
         self.measured_at(f64::INFINITY)
     }
 
     /// As [`LoopTask::measured`], with a history sampled every `interval` (s) and at events.
-    ///
-    /// # Errors
-    /// [`LoopFailure`].
     pub fn measured_at(&self, interval: f64) -> Result<DeviceRun, LoopFailure> {
         let task = Task { interval, ..self.task() };
         let mut watchers = task.watchers(&task.loaded()?)?;

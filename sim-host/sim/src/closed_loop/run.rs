@@ -145,9 +145,6 @@ pub struct ClosedLoop<'a> {
 
 impl ClosedLoop<'_> {
     /// Runs it.
-    ///
-    /// # Errors
-    /// [`LoopError`].
     pub fn run(
         self,
         plant: &mut Plant<'_>,

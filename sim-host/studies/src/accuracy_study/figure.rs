@@ -125,9 +125,6 @@ fn front(rows: &[Row], device: usize) -> Line {
 pub type Figure = (&'static str, String);
 
 /// All figures of a study; those that nothing can be drawn in are left out.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn figures(title: &str, rows: &[Row], devices: &[String]) -> Result<Vec<Figure>, PlotError> {
     PLANS.iter().filter_map(|plan| plan.figure(title, rows, devices)).collect()
 }

@@ -80,9 +80,6 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
 }
 
 /// Runs the study of a scene that [`check`] allows. The times depend on the machine, all else only on the scene.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn study(
     scene: &Scene,
     ground: &GroundMotions,

@@ -19,9 +19,6 @@ impl RunList<'_> {
     }
 
     /// The rows of `runs`, without the heading.
-    ///
-    /// # Errors
-    /// [`TableError`].
     pub fn text(&self, runs: &[Run]) -> Result<Vec<u8>, TableError> {
         let mut writer = CsvWriter::resumed(self.columns(), Vec::new());
         self.table(runs).rows(&mut writer)?;

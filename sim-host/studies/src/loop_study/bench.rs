@@ -162,9 +162,6 @@ impl<'a> Conditions<'a> {
 }
 
 /// Gives `work` the closed loop of a motion and a variant.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn with_loop<R>(
     motion: &Motion,
     variant: &Variant,
@@ -184,17 +181,11 @@ pub fn with_loop<R>(
 }
 
 /// Runs one closed loop.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn run_loop(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<LoopResult, StudyError> {
     Ok(run_loop_observed::<()>(motion, variant, conditions)?.0)
 }
 
 /// [`run_loop`] with a new observer of its ticks, which it returns.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn run_loop_observed<T: TickObserver + Default>(
     motion: &Motion,
     variant: &Variant,
@@ -211,9 +202,6 @@ pub fn run_loop_observed<T: TickObserver + Default>(
 }
 
 /// Outcome and peak |θ|/α of the ideal device of `variant` without a controller.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn run_ideal(motion: &Motion, variant: &Variant, conditions: &Conditions<'_>) -> Result<(Outcome, f64), StudyError> {
     with_loop(motion, variant, conditions, |task| {
         let run = task.ideal()?;

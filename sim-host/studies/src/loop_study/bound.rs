@@ -152,9 +152,6 @@ fn peaks(kinds: &[Kind], fates: &[Vec<Fate>]) -> TextTable {
 }
 
 /// Runs the study over pulses and `records`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let recorded = Records::new(records)?;
     let base = Setting::base();

@@ -14,9 +14,6 @@ use crate::statistics::quantile;
 const DELAYS: [f64; 3] = [0.0, 1.0, 5.0];
 
 /// Runs the study over 32 pulses and `records`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn decisions(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let mut motions = [grid("sine", 4, (1.5, 6.0), (1.5, 4.0)), grid("cosine", 4, (1.5, 6.0), (1.5, 4.0))].concat();
     motions.extend_from_slice(records);

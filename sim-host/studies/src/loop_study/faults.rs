@@ -103,9 +103,6 @@ fn inject(variant: &Variant, failing: Failing, from: f64, conditions: &Condition
 }
 
 /// Every fault at every instant, by fault, then by instant.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn results(progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<Vec<FaultResult>>, StudyError> {
     let variant = Variant::new(
         "faults",
@@ -129,9 +126,6 @@ pub fn results(progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<V
 }
 
 /// Runs the study.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn faults(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let results = results(progress, conditions)?;
     let mut report = Report::new("faults", "Faults in the closed loop");

@@ -25,9 +25,6 @@ pub fn motions() -> Vec<Motion> {
 }
 
 /// Those of [`motions`] under which the ideal pair stands.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn standing(conditions: &Conditions<'_>) -> Result<Vec<Motion>, StudyError> {
     let mut kept = Vec::new();
     for motion in motions() {
@@ -71,9 +68,6 @@ pub fn order(points: &[(f64, f64)]) -> f64 {
 }
 
 /// Runs the study.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let motions = standing(conditions)?;
     let ideals =

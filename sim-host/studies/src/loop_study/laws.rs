@@ -169,9 +169,6 @@ fn best(tallies: &[Tally]) -> String {
 }
 
 /// Runs the study over pulses and `records`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let recorded = Records::new(records)?;
     let base = Setting::base();

@@ -31,9 +31,6 @@ pub fn pulses() -> Vec<Motion> {
 }
 
 /// Peaks with each of [`LOSSES`] from mid-swing of the first swing on, against the same loop without it, under `motions`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn losses(motions: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Vec<Comparison>, StudyError> {
     let variants = LOSSES.map(|(name, _, safe)| {
         let safe = format!("controller.safe_state=\"{safe}\"");
@@ -78,9 +75,6 @@ fn peak(
 }
 
 /// Adds them to a report.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn section(report: &mut Report, progress: &Progress, conditions: &Conditions<'_>) -> Result<(), StudyError> {
     let motions = pulses();
     let compared = losses(&motions, progress, conditions)?;

@@ -104,9 +104,6 @@ fn variant(name: &str, suite: &str, estimator: &str, delay: f64) -> Variant {
 }
 
 /// Runs the study over the pulses and `records`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn practice(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let pulses = pulses();
     let mut report = Report::new("practice", "As good as ideal in practice");

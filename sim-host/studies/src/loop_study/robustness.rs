@@ -130,9 +130,6 @@ fn breaking(unit: &str, name: &str, high: &[(f64, f64)]) -> String {
 const THRESHOLDS: [f64; 2] = [1.6, 2.6];
 
 /// Runs the study over pulses and `records`.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let slenderness = block_of(&Variant::new("records", &[]))?.slenderness();
     let pulses = [grid("sine", 6, (1.0, 6.0), (1.5, 5.2)), grid("cosine", 6, (1.0, 6.0), (1.5, 5.2))].concat();

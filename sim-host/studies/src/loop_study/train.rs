@@ -244,9 +244,6 @@ fn motions(recorded: &Records<'_>, alpha: f64) -> [Vec<Vec<(Motion, f64)>>; 2] {
 }
 
 /// Runs the training.
-///
-/// # Errors
-/// [`StudyError`].
 pub fn train(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let recorded = Records::new(records)?;
     let alpha = Setting::base().slenderness_deg.to_radians();

@@ -23,9 +23,6 @@ const PAIRS: [(Outcome, Outcome, &str); 6] = [
 ];
 
 /// The picture of `all`, a [`Boundaries`] for each map of `tally`; none for a cut, whose boundaries are points.
-///
-/// # Errors
-/// [`PlotError`].
 pub fn figure(grid: &Grid, tally: &Tally, all: &[Boundaries]) -> Result<Option<String>, PlotError> {
     let Some(y) = &grid.map.y else { return Ok(None) };
     let class = |outcome: Outcome| Cell::from(outcome).class();

@@ -91,9 +91,6 @@ pub enum TriedError {
 
 impl Tried {
     /// Opens the rows in `folder`, which come from `origin`, of designs under so many `motions`.
-    ///
-    /// # Errors
-    /// [`LongRunError`].
     pub fn begin(folder: &Path, origin: Origin, start: Start, motions: usize) -> Result<Tried, LongRunError> {
         let names = COLUMNS.map(str::to_owned);
         let plan = Plan {
@@ -128,9 +125,6 @@ impl Tried {
     }
 
     /// Removes the rows: what they led to is written.
-    ///
-    /// # Errors
-    /// [`LongRunError`].
     pub fn discard(self) -> Result<(), LongRunError> {
         self.rows.discard()
     }
