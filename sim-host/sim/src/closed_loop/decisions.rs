@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sprag_shared::motion::state::Phase;
 
-use super::run::{Looks, Tick, TickObserver};
+use super::run::{Looks, Tick, TickObserver, follow_fall};
 
 /// One instant of a closed loop, as decisions are judged.
 #[derive(Clone, Copy, Debug)]
@@ -39,17 +39,8 @@ pub struct Decisions {
     last: Option<Moment>,
     ideal: Vec<(f64, bool)>,
     moved: Vec<(f64, bool)>,
-    /// What there was when |θ| last passed α.
-    fall: Option<Counted>,
-}
-
-/// How far a collection has come.
-#[derive(Clone, Copy, Debug)]
-struct Counted {
-    wrong: f64,
-    whole: f64,
-    ideal: usize,
-    moved: usize,
+    /// `wrong`, `whole`, and the lengths of `ideal` and `moved` before a fall.
+    fall: Option<(f64, f64, usize, usize)>,
 }
 
 /// What they come to.
@@ -83,7 +74,7 @@ impl TickObserver for Decisions {
     }
 
     fn overturned(&mut self) {
-        let Some(Counted { wrong, whole, ideal, moved }) = self.fall.take() else { return };
+        let Some((wrong, whole, ideal, moved)) = self.fall.take() else { return };
         (self.wrong, self.whole) = (wrong, whole);
         self.ideal.truncate(ideal);
         self.moved.truncate(moved);
@@ -112,12 +103,7 @@ impl Decisions {
                 }
             }
         }
-        if !now.beyond {
-            self.fall = None;
-        } else if self.fall.is_none() {
-            let (ideal, moved) = (self.ideal.len(), self.moved.len());
-            self.fall = Some(Counted { wrong: self.wrong, whole: self.whole, ideal, moved });
-        }
+        follow_fall(&mut self.fall, now.beyond, || (self.wrong, self.whole, self.ideal.len(), self.moved.len()));
         let before = self.last.unwrap_or(Moment { ideal: false, engaged: false, ..now });
         // A standing block has no law to follow.
         let ideal = if now.rocks { now.ideal } else { before.ideal };

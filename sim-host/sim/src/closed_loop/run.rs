@@ -87,6 +87,15 @@ impl TickObserver for Vec<Tick> {
     }
 }
 
+/// Keeps in `fall` what there was `before` the tick at which |θ| last passed α, as long as it stays `beyond`: nothing of a fall counts.
+pub(super) fn follow_fall<T>(fall: &mut Option<T>, beyond: bool, before: impl FnOnce() -> T) {
+    if beyond {
+        fall.get_or_insert_with(before);
+    } else {
+        *fall = None;
+    }
+}
+
 /// Why a loop ended without a result.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LoopError {
@@ -164,7 +173,7 @@ impl ClosedLoop<'_> {
         let looks = observer.looks();
         let (mut engagements, mut was_engaged) = (0, false);
         let mut faults = Vec::new();
-        // Faults so far and the state when |θ| last passed α.
+        // Faults so far and the state.
         let mut fall = None;
         let mut last_fault = None;
         let mut phase = ControllerPhase::Boot;
@@ -195,11 +204,7 @@ impl ClosedLoop<'_> {
             let asked = looks == Looks::Always || whereabouts.motion.phase == Phase::Rocking;
             let ideal = looks != Looks::Never && driver.ideal(&whereabouts, asked) != Wish::Release;
             let beyond = whereabouts.motion.rotation.abs() >= self.slenderness;
-            if !beyond {
-                fall = None;
-            } else if fall.is_none() {
-                fall = Some((faults.len(), phase));
-            }
+            follow_fall(&mut fall, beyond, || (faults.len(), phase));
             let engaged = whereabouts.engaged[0] || whereabouts.engaged[1];
             engagements += u32::from(engaged && !was_engaged);
             was_engaged = engaged;
@@ -223,10 +228,10 @@ impl ClosedLoop<'_> {
         let end = plant.whereabouts();
         if end.motion.phase == Phase::Overturned {
             observer.overturned();
-        }
-        if let (Phase::Overturned, Some((entered, state))) = (end.motion.phase, fall) {
-            faults.truncate(entered);
-            phase = state;
+            if let Some((entered, state)) = fall {
+                faults.truncate(entered);
+                phase = state;
+            }
         }
         Ok(Ending { motion: end.motion, ticks: tick, engagements, phase, faults, missed: end.missed, began })
     }
