@@ -61,15 +61,7 @@ fn a_host_may_run_it_without_settings_of_its_own() {
     let mut bench = started(None, None, 0.0);
     bench.ticks(10);
     assert_eq!(bench.answer(Request::Attach { pace: Pace::Sample }), Answer::Restarted(DONE));
-    let mut number = 0;
-    while bench.device.decision().phase != Phase::Armed {
-        number += 1;
-        assert!(number < 5000);
-        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
-        assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
-        bench.device.tick(|_| panic!("its own sensors"), 0.0);
-        bench.rig.advance(bench.device.decision().command);
-    }
+    bench.arm_by_host();
     assert_eq!(bench.answer(Request::Detach), Answer::Restarted(DONE));
     assert_eq!(bench.tick(), Phase::Fault);
 }
@@ -80,15 +72,7 @@ fn visited() -> (Bench, u32) {
     assert_eq!(bench.draft(Item::Law, 1), DONE);
     assert_eq!(bench.ask(Request::Apply { check: changed(Item::Law, 1).check(), store: false }), DONE);
     assert_eq!(bench.ask(Request::Attach { pace: Pace::Timer }), DONE);
-    let mut number = 0;
-    while bench.device.decision().phase != Phase::Armed {
-        number += 1;
-        assert!(number < 5000);
-        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
-        assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
-        bench.device.tick(|_| panic!("its own sensors"), 0.0);
-        bench.rig.advance(bench.device.decision().command);
-    }
+    let number = bench.arm_by_host();
     (bench, number)
 }
 
@@ -99,10 +83,7 @@ fn detached_it_is_as_it_was() {
         bench.rig.shakes = rocks;
         while rocks && bench.device.decision().phase != Phase::Rocking {
             number += 1;
-            let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
-            assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
-            bench.device.tick(|_| panic!("its own sensors"), 0.0);
-            bench.rig.advance(bench.device.decision().command);
+            bench.host_tick(number);
         }
         let Reply::State(state) = bench.ask(Request::State) else { panic!() };
         assert_eq!((state.attached, bench.device.shown().attached), (Some(Pace::Timer), true));
@@ -127,7 +108,7 @@ fn a_host_that_falls_silent_is_left() {
     let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number + 1) };
     assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
     for _ in 0..=most {
-        bench.device.tick(|_| panic!("its own sensors"), 0.0);
+        bench.ticks_without(1);
         assert!(!bench.device.deserted());
     }
     bench.ticks_without(2);

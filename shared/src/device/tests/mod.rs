@@ -92,6 +92,20 @@ impl Bench {
         }
     }
 
+    /// Attached, by a sample from the link.
+    fn host_tick(&mut self, number: u32) -> Phase {
+        let sample = TickSample { sample: self.rig.sample(), ..host_sample(number) };
+        assert_eq!(self.answer(Request::Sample(sample)), Answer::Sample);
+        self.ticks_without(1);
+        self.rig.advance(self.device.decision().command);
+        self.device.decision().phase
+    }
+
+    /// Attached, by samples from the link from 1 on. Returns the number of the last one.
+    fn arm_by_host(&mut self) -> u32 {
+        (1..5000).find(|number| self.host_tick(*number) == Phase::Armed).expect("it arms")
+    }
+
     fn until(&mut self, phase: Phase, most: usize) {
         assert!((0..most).any(|_| self.tick() == phase), "{phase:?} never came: {:?}", self.device.decision());
     }
@@ -324,10 +338,7 @@ fn attached_or_not_it_decides_the_same() {
         own.rig.shakes = number > 3000;
         own.tick();
         attached.rig.shakes = number > 3000;
-        let sample = TickSample { sample: attached.rig.sample(), ..host_sample(number) };
-        assert_eq!(attached.answer(Request::Sample(sample)), Answer::Sample);
-        attached.device.tick(|_| panic!("its own sensors"), 0.0);
-        attached.rig.advance(attached.device.decision().command);
+        attached.host_tick(number);
         assert_eq!(own.device.decision(), attached.device.decision());
     }
     assert_eq!(own.device.decision().phase, Phase::Rocking);

@@ -10,6 +10,16 @@ fn reset(bench: &Bench) -> Bench {
     Bench { rig: bench.rig.clone(), ..Bench::with(bench.device.settings(), Some(&retained)) }
 }
 
+impl Bench {
+    /// As on a board after a reset: the encoder counts from the first tick on, while inertial sensors are `silent` for some.
+    fn start_tick(&mut self, silent: bool) -> Decision {
+        let now = self.rig.sample();
+        let seen = |own: &Sample| if silent { Sample { encoder: now.encoder, engaged: now.engaged, ..*own } } else { now };
+        self.device.tick(|own| *own = seen(own), 0.0);
+        *self.device.decision()
+    }
+}
+
 #[test]
 fn it_resumes_where_it_was() {
     let mut bench = Bench::rocking();
@@ -40,23 +50,12 @@ fn it_resumes_where_it_was() {
     assert!(worst[0] < 1e-5 && worst[1] < 0.1, "{worst:?}");
 }
 
-/// As on a board: after the reset its inertial sensors give nothing for some ticks, while the encoder counts from the first one on.
 #[test]
 fn sensors_that_start_anew_are_waited_for_in_the_safe_state() {
     for silent in [0, 1, 3, 5, 6, 7, 10, 40, 120, 199] {
         let mut again = reset(&Bench::rocking());
         for tick in 0..4000 {
-            let now = again.rig.sample();
-            again.device.tick(
-                |own| {
-                    (own.encoder, own.engaged) = (now.encoder, now.engaged);
-                    if tick >= silent {
-                        *own = now;
-                    }
-                },
-                0.0,
-            );
-            let decision = *again.device.decision();
+            let decision = again.start_tick(tick < silent);
             if tick < silent {
                 assert!(again.device.resumes() && decision.command == again.device.safe_command(), "{silent}: {decision:?}");
             } else {
@@ -151,29 +150,18 @@ fn where_it_did_not_decide_it_starts_from_the_beginning() {
 fn attached_it_waits_for_a_sample_but_not_for_ever() {
     let mut bench = Bench::new();
     bench.ask(Request::Attach { pace: Pace::Timer });
-    let send = |bench: &mut Bench, number: u32| {
-        let sample = TickSample { sample: bench.rig.sample(), ..host_sample(number) };
-        assert_eq!(bench.answer(Request::Sample(sample)), Answer::Sample);
-        bench.device.tick(|_| panic!("its own sensors"), 0.0);
-        bench.rig.advance(bench.device.decision().command);
-    };
-    let mut number = 0;
-    while bench.device.decision().phase != Phase::Armed {
-        number += 1;
-        assert!(number < 5000);
-        send(&mut bench, number);
-    }
+    let number = bench.arm_by_host();
     // It continues with the sample that comes.
     let mut again = reset(&bench);
     assert_eq!(again.device.attached(), Some(Pace::Timer));
-    (0..50).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));
+    again.ticks_without(50);
     assert!(again.device.resumes() && again.device.decision().command == again.device.safe_command());
-    send(&mut again, number + 1);
+    again.host_tick(number + 1);
     assert!(!again.device.resumes() && again.device.decision().phase == Phase::Rocking);
     assert_eq!(again.device.retained().calibration, bench.device.retained().calibration);
     // Or starts from the beginning, where the sender is gone too.
     let mut again = reset(&bench);
-    (0..=200).for_each(|_| again.device.tick(|_| panic!("its own sensors"), 0.0));
+    again.ticks_without(201);
     assert!(!again.device.resumes() && again.device.decision().phase != Phase::Rocking);
 }
 
@@ -209,8 +197,7 @@ fn resets_before_the_first_tick_count_too() {
     assert!(!reset(&bench).device.resumes());
 }
 
-/// As on a board, whose encoder counts on while its sensors start: reset at every third tick of half a second, before impacts too, it knows at
-/// once where the block is.
+/// Reset at every third tick of half a second, before impacts too.
 #[test]
 fn reset_at_any_tick_it_knows_where_the_block_is() {
     const SILENT: usize = 13;
@@ -218,17 +205,7 @@ fn reset_at_any_tick_it_knows_where_the_block_is() {
     for begun in 0..330 {
         let mut again = reset(&bench);
         for tick in 0..400 {
-            let now = again.rig.sample();
-            again.device.tick(
-                |own| {
-                    (own.encoder, own.engaged) = (now.encoder, now.engaged);
-                    if tick >= SILENT {
-                        *own = now;
-                    }
-                },
-                0.0,
-            );
-            let decision = *again.device.decision();
+            let decision = again.start_tick(tick < SILENT);
             if tick >= SILENT {
                 assert!(decision.estimate.located(0.174_532_92), "reset {begun}, tick {tick}: {:?}", decision.estimate);
                 assert!(again.errors()[0] < 1e-3, "reset {begun}, tick {tick}: {:?}", again.errors());
