@@ -3,20 +3,16 @@
 use std::fs;
 use std::path::Path;
 
-use super::{said, scene, sprag};
+use super::{said, scene, sprag, summary, well};
+
 const HEADER: &str =
     "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
-
-fn summary(folder: &Path) -> serde_json::Value {
-    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
-}
 
 /// Peak and error of the first run that stands.
 fn peak_and_error(command: &str, scene: &str, level: &str) -> (f64, f64) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().to_str().unwrap();
-    let output = sprag(&[command, &super::scene(scene), "--accuracy", level, "--out", out]);
-    assert!(output.status.success(), "{}", said(&output));
+    well(sprag(&[command, &super::scene(scene), "--accuracy", level, "--out", out]));
     let summary = summary(folder.path());
     let run = summary["runs"].as_array().unwrap().iter().find(|run| run["outcome"] == "safe").unwrap();
     assert_eq!(run["error_estimate"]["outcome_certain"], true, "{run}");
@@ -64,8 +60,7 @@ fn batch_gives_errors_beside_its_results_and_without_them_the_columns_of_old() {
     }
     fs::write(&cases, text).unwrap();
     let run = |out: &Path, more: &[&str]| {
-        let output = sprag(&[&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat());
-        assert!(output.status.success(), "{}", said(&output));
+        let output = well(sprag(&[&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat()));
         (fs::read_to_string(out).unwrap(), said(&output))
     };
     let (plain, _) = run(&plain, &[]);
@@ -147,8 +142,7 @@ fn the_study_writes_its_tables_and_pictures() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("study");
     let scene = scene("figure05");
-    let output = sprag(&["accuracy", &scene, "--cells", "2", "--smallest-step", "0.03", "--out", out.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", said(&output));
+    well(sprag(&["accuracy", &scene, "--cells", "2", "--smallest-step", "0.03", "--out", out.to_str().unwrap()]));
     let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
     files.sort();
     for file in ["accuracy.csv", "accuracy.md", "order.svg", "sines.svg", "summary.json", "work_precision.svg"] {
@@ -206,7 +200,7 @@ fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_n
 fn specimens_of_a_loop_are_as_accurate_as_the_loop() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let output = sprag(&[
+    well(sprag(&[
         "loop",
         &scene("controller"),
         "--set",
@@ -219,8 +213,7 @@ fn specimens_of_a_loop_are_as_accurate_as_the_loop() {
         "1",
         "--out",
         out.to_str().unwrap(),
-    ]);
-    assert!(output.status.success(), "{}", said(&output));
+    ]));
     let run = &summary(&out)["runs"][0];
     let [own, specimen] = [&run["peak_rotation"], &run["monte_carlo"]["peak_rotation_median"]].map(|peak| peak.as_f64().unwrap());
     assert!((own - specimen).abs() <= 1e-12 * own, "{own} {specimen}");

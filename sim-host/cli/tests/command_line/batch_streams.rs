@@ -8,8 +8,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use sprag_report::columns::{Column, CsvWriter, parquet_of_csv, read_parquet};
 
-use super::long_runs::well;
-use super::{refused, said, sprag};
+use super::{refused, said, sprag, well};
 
 const TITLES: [&str; 10] = [
     "id",

@@ -4,9 +4,9 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use super::long_runs::{files, folders, grown, well};
+use super::long_runs::{files, folders, grown};
 use super::studies::folder_of_pulses;
-use super::{said, scene};
+use super::{said, scene, well};
 
 /// A smaller map.
 const CELLS: [&str; 2] = ["map.x.cells=20", "map.y.cells=16"];
@@ -70,7 +70,9 @@ fn parts_of_a_map_in_any_order_are_the_map() {
     killed.kill().unwrap();
     killed.wait().unwrap();
     let twice: Vec<_> = (0..2).map(|_| command(here, &["part", "parts", "1"]).stdout(Stdio::null()).spawn().unwrap()).collect();
-    twice.into_iter().for_each(|part| well(part.wait_with_output().unwrap()));
+    for part in twice {
+        well(part.wait_with_output().unwrap());
+    }
     refused(&sprag(here, &["collect", "parts"]), &["1 of 5 parts are missing", "part-00003.parquet"]);
     well(sprag(here, &["part", "parts", "3", "--threads", "1"]));
     // What is there is not made again, and what is there of another plan is.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use super::{errors, said, scene, sprag};
+use super::{errors, said, scene, sprag, summary};
 
 /// A device's name that CSV has to quote.
 const QUOTED: &str = "device.1.name=\"one, \\\"inerter\\\"\"";
@@ -78,7 +78,7 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
         ("map", &["command", "scene", "version"]),
         ("cloud", &["command", "seed", "structures", "study", "version"]),
     ]) {
-        let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        let summary = summary(out);
         for path in parquet_files(out) {
             let reader = SerializedFileReader::new(fs::File::open(&path).unwrap()).unwrap();
             let csv = csv::ReaderBuilder::new().has_headers(false).from_path(path.with_extension("csv")).unwrap();

@@ -1,11 +1,11 @@
 //! Runs that are split over processes, interrupted and killed, by the command itself: always the bytes of one run.
 
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::studies::folder_of_pulses;
-use super::{said, scene};
+use super::{said, scene, well};
 
 /// Cells that are simulated one by one, so that a run takes a while.
 pub const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
@@ -14,10 +14,6 @@ pub fn map(out: &Path, more: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
     command.args(["map", &scene("figure08"), "--out", out.to_str().unwrap()]).args(more);
     command
-}
-
-pub fn well(output: Output) {
-    assert!(output.status.success(), "{}", said(&output));
 }
 
 /// The files without times.

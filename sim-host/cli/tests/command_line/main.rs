@@ -28,6 +28,17 @@ fn sprag(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
 }
 
+/// The output of a run that succeeds.
+fn well(output: Output) -> Output {
+    assert!(output.status.success(), "{}", said(&output));
+    output
+}
+
+/// The summary in `folder`.
+fn summary(folder: &Path) -> serde_json::Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
 /// What was said on the side of anything but records.
 fn errors(message: &str) -> Vec<&str> {
     message.lines().filter(|line| !line.starts_with("sprag: warning: ")).collect()

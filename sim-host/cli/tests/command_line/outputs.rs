@@ -4,9 +4,9 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use super::long_runs::{SLOW, begun, files, folders, grown, map, well};
+use super::long_runs::{SLOW, begun, files, folders, grown, map};
 use super::studies::folder_of_pulses;
-use super::{SHORT_SCENE, errors, pulse, refused, said, scene, sprag};
+use super::{SHORT_SCENE, errors, pulse, refused, said, scene, sprag, well};
 
 const CASES: &str = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n\
     one,full,15,none,0,0.85,sine,2,2,60\n";

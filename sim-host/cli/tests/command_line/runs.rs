@@ -3,14 +3,13 @@
 use std::fs;
 use std::process::Command;
 
-use super::{refused, said, scene, sprag};
+use super::{refused, said, scene, sprag, summary, well};
 
 #[test]
 fn simulate_writes_its_three_files_and_a_summary() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("near");
-    let output = sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = well(sprag(&["simulate", &scene("near_fault"), "--out", out.to_str().unwrap()]));
     let table = String::from_utf8(output.stdout).unwrap();
     for device in ["none", "inerter", "clutched pair"] {
         assert!(table.contains(device), "{table}");
@@ -19,7 +18,7 @@ fn simulate_writes_its_three_files_and_a_summary() {
     let mut files: Vec<_> = fs::read_dir(&out).unwrap().map(|file| file.unwrap().file_name()).collect();
     files.sort();
     assert_eq!(files, ["history.csv", "history.svg", "summary.json"]);
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    let summary = summary(&out);
     assert_eq!(summary["command"], "simulate");
     assert_eq!(summary["scene"]["block"]["restitution"], 0.85);
     let runs = summary["runs"].as_array().unwrap();
@@ -46,7 +45,7 @@ fn a_run_without_time_keeps_its_results_without_a_picture() {
         let output = sprag(&["simulate", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
         assert_eq!(said(&output), "sprag: history: no picture: the responses span no time, so there is no time axis to draw\n");
         assert!(output.status.success());
-        let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        let summary = summary(&out);
         assert_eq!(summary["runs"][0]["outcome"], outcome, "{name}");
         assert!(out.join("history.csv").exists() && !out.join("history.svg").exists(), "{name}");
     }
@@ -65,7 +64,7 @@ fn a_new_file_on_standard_output_is_the_file_alone() {
 fn keys_of_whole_numbers_may_be_axes() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let output = sprag(&[
+    well(sprag(&[
         "map",
         &scene("figure08"),
         "--cut",
@@ -75,8 +74,7 @@ fn keys_of_whole_numbers_may_be_axes() {
         "block.restitution_seed=1:4:4",
         "--out",
         out.to_str().unwrap(),
-    ]);
-    assert!(output.status.success(), "{}", said(&output));
+    ]));
 }
 
 #[test]
@@ -110,8 +108,7 @@ fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
     fs::write(&cases, text).unwrap();
     let results = ["1", "2", "7"].map(|threads| {
         let out = folder.path().join(format!("{threads}.csv"));
-        let output = sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--threads", threads]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        well(sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--threads", threads]));
         fs::read_to_string(out).unwrap()
     });
     assert!(results[0] == results[1] && results[1] == results[2]);
@@ -149,8 +146,7 @@ fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
 #[test]
 fn effects_are_listed_and_shown() {
     let text = |arguments: &[&str]| {
-        let output = sprag(arguments);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = well(sprag(arguments));
         String::from_utf8(output.stdout).unwrap()
     };
     let table = text(&["effects"]);
@@ -200,8 +196,7 @@ fn effects_are_listed_and_shown() {
 #[test]
 fn explain_says_what_is_on_why_and_which_equation_results() {
     let seed = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/fuzz/seeds/scene/effects.toml");
-    let output = sprag(&["explain", seed, "--set", "device.3.clutch.capacity_ratio=0.25"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = well(sprag(&["explain", seed, "--set", "device.3.clutch.capacity_ratio=0.25"]));
     let text = String::from_utf8(output.stdout).unwrap();
     for words in [
         "whole scene",
@@ -257,7 +252,7 @@ fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let outs = ["1", "2"].map(|threads| {
         let out = folder.path().join(threads);
-        let output = sprag(&[
+        let output = well(sprag(&[
             "loop",
             &scene("controller"),
             "--set",
@@ -270,8 +265,7 @@ fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
             threads,
             "--out",
             out.to_str().unwrap(),
-        ]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        ]));
         assert!(String::from_utf8_lossy(&output.stdout).contains("ideal pair"));
         out
     });
@@ -279,7 +273,7 @@ fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
         let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
         assert!(!one.is_empty() && one == two, "{name}");
     }
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let summary = summary(&outs[0]);
     let run = &summary["runs"][0];
     assert_eq!(
         (&summary["command"], &run["outcome"], &run["controller_state"]),
@@ -297,8 +291,7 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
         let out = folder.path().join(threads);
         let (scene, out_text) = (scene("near_fault"), out.to_str().unwrap().to_owned());
         let rest = ["--monte-carlo", "4", "--threads", threads, "--out", &out_text];
-        let output = sprag(&[&["simulate", &scene][..], &scattered, &rest].concat());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = well(sprag(&[&["simulate", &scene][..], &scattered, &rest].concat()));
         assert!(String::from_utf8_lossy(&output.stdout).contains("4 specimens"));
         out
     });
@@ -307,7 +300,7 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
         assert!(!one.is_empty() && one == two, "{name}");
     }
     let table = fs::read_to_string(outs[0].join("monte_carlo.csv")).unwrap();
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(outs[0].join("summary.json")).unwrap()).unwrap();
+    let summary = summary(&outs[0]);
     let devices = summary["runs"].as_array().unwrap();
     assert_eq!(summary["monte_carlo"].as_array().unwrap().len(), devices.len());
     assert_eq!(table.lines().count(), 1 + 4 * devices.len(), "{table}");
@@ -315,10 +308,9 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
     for (number, seed) in (5..9).enumerate() {
         let out = folder.path().join(seed.to_string());
         let set = format!("block.restitution_seed={seed}");
-        let output =
-            sprag(&["simulate", &scene("near_fault"), scattered[0], scattered[1], "--set", &set, "--out", out.to_str().unwrap()]);
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let alone: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+        let line = ["simulate", &scene("near_fault"), scattered[0], scattered[1], "--set", &set, "--out", out.to_str().unwrap()];
+        well(sprag(&line));
+        let alone = super::summary(&out);
         for device in alone["runs"].as_array().unwrap() {
             let of_device = |row: &&str| row.split(',').next() == device["device"].as_str();
             let row: Vec<&str> = table.lines().filter(of_device).nth(number).unwrap().split(',').collect();
@@ -353,8 +345,7 @@ fn a_base_that_slides_is_an_outcome_of_its_own() {
         [[ground]]\nmotion = \"rectangular\"\namplitude_g = 0.4\nduration_s = 0.5\n";
     fs::write(&path, text).unwrap();
     let out = folder.path().join("out");
-    let output = sprag(&["simulate", path.to_str().unwrap(), "--out", out.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = well(sprag(&["simulate", path.to_str().unwrap(), "--out", out.to_str().unwrap()]));
     // A (A − μ) g T²/(2μ).
     let newmark = 0.4 * 0.25 * 9.80665 * 0.25 / 0.3;
     let said = String::from_utf8_lossy(&output.stdout);
@@ -362,7 +353,7 @@ fn a_base_that_slides_is_an_outcome_of_its_own() {
         said.contains(&format!("the base slides from 0.000 s on: {newmark:.4} m at most, -{newmark:.4} m at the end")),
         "{said}"
     );
-    let summary: serde_json::Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    let summary = summary(&out);
     let run = &summary["runs"][0];
     assert_eq!((&run["outcome"], &run["sliding"]["outcome"]), (&"no-rocking".into(), &"slides".into()));
     for (key, sign) in [("peak_slide_m", 1.0), ("residual_displacement_m", -1.0)] {

@@ -6,7 +6,7 @@ use std::process::Output;
 
 use serde_json::Value;
 
-use super::{SHORT_SCENE, errors, pulse, said, scene, sprag};
+use super::{SHORT_SCENE, errors, pulse, said, scene, sprag, summary, well};
 
 /// A scene with a record of its own, and three more records: in the middle one that cannot be read.
 fn inputs(folder: &Path) -> (String, [String; 3]) {
@@ -42,10 +42,6 @@ fn on_any_threads(folder: &Path, line: &[&str], look: impl Fn(&Output), files: &
     }
     let summary = summary(&out);
     (out, summary)
-}
-
-fn summary(out: &Path) -> Value {
-    serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap()
 }
 
 #[test]
@@ -192,8 +188,7 @@ fn a_refined_map_has_its_boundaries_on_any_number_of_threads() {
         let out = folder.path().join(format!("{threads}{}", more.len()));
         let few = ["--set", "map.x.cells=6", "--set", "map.y.cells=5", "--refine", "--evaluations", "1500", "--threads", threads];
         let (scene, place) = (scene("figure08"), out.to_str().unwrap().to_owned());
-        let output = sprag(&[&["map", &scene, "--out", &place][..], &few, more].concat());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = well(sprag(&[&["map", &scene, "--out", &place][..], &few, more].concat()));
         (out, String::from_utf8(output.stdout).unwrap())
     };
     let ((one, table), (two, _)) = (run("1", &[]), run("2", &[]));
