@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+#[cfg(test)]
+use crate::command::context::Context;
 use crate::command::context::Run;
 #[cfg(feature = "effects")]
 use crate::command::{accuracy, board, closed_loop, design, hil, loop_study};
@@ -152,6 +154,17 @@ impl Command {
             Command::Manual(arguments) => arguments,
         }
     }
+}
+
+/// Runs the command with the `words` behind its name: its exit code, and what it writes to standard output and standard error.
+#[cfg(test)]
+pub fn run(words: &[&str]) -> (i32, String, String) {
+    let words: Vec<OsString> = std::iter::once("sprag").chain(words.iter().copied()).map(Into::into).collect();
+    let line = read(&words).unwrap_or_else(|error| panic!("{error}"));
+    let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), sprag_sim::interrupt::Interrupt::default());
+    let mut context = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: line.quiet };
+    let code = context.run(line.command.arguments());
+    (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
 }
 
 #[cfg(test)]

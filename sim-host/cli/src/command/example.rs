@@ -98,16 +98,12 @@ mod tests {
     use std::path::Path;
 
     use sprag_report::streams::BAD_INPUT;
-    use sprag_sim::interrupt::Interrupt;
 
     use super::*;
 
     fn example(name: &str, folder: &Path) -> (i32, String) {
-        let arguments =
-            ExampleArguments { name: Some(name.to_owned()), out: folder.to_owned(), replace: OverwriteArguments::default() };
-        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
-        let code = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&arguments);
-        (code, String::from_utf8(err).unwrap())
+        let (code, _, err) = crate::line::run(&["example", name, "--out", folder.to_str().unwrap()]);
+        (code, err)
     }
 
     #[test]

@@ -58,14 +58,13 @@ fn page(man: &Man) -> io::Result<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
-    use sprag_sim::interrupt::Interrupt;
+    use sprag_report::streams::BAD_INPUT;
 
     use super::*;
 
-    fn run(folder: &Path) -> anyhow::Result<Completion> {
-        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
-        let mut context = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false };
-        ManualArguments { folder: folder.to_owned() }.run(&mut context)
+    fn run(folder: &Path) -> (i32, String) {
+        let (code, _, err) = crate::line::run(&["manual", folder.to_str().unwrap()]);
+        (code, err)
     }
 
     /// The page that cannot be written is named, and no other is replaced.
@@ -75,12 +74,12 @@ mod tests {
         let [batch, whole] = ["sprag-batch.1", "sprag.1"].map(|name| folder.path().join(name));
         std::fs::write(&batch, "before").unwrap();
         std::fs::create_dir(&whole).unwrap();
-        let refused = run(folder.path()).unwrap_err().to_string();
-        assert!(refused.starts_with(whole.to_str().unwrap()), "{refused}");
+        let (code, refused) = run(folder.path());
+        assert!(code == BAD_INPUT && refused.starts_with(&format!("sprag: {}", whole.display())), "{refused}");
         assert_eq!(std::fs::read(&batch).unwrap(), b"before");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
         std::fs::remove_dir(&whole).unwrap();
-        run(folder.path()).unwrap();
+        assert_eq!(run(folder.path()), (0, String::new()));
         let text = std::fs::read_to_string(&batch).unwrap();
         assert!(text.contains("columns\n.nf\n  id,geometry,") && text.contains(",free_time\n.fi\nand the result"), "{text}");
     }

@@ -142,20 +142,9 @@ fn table(described: &[&Description]) -> TextTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::Parser;
-    use sprag_sim::interrupt::Interrupt;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        arguments: RecordArguments,
-    }
 
     fn run_line(line: &[&str]) -> (i32, String, String) {
-        let parsed = Line::try_parse_from([&["record"], line].concat()).unwrap_or_else(|error| panic!("{error}"));
-        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
-        let status = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&parsed.arguments);
-        (status, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+        crate::line::run(&[&["record"], line].concat())
     }
 
     fn folder() -> (tempfile::TempDir, String, String) {
@@ -205,7 +194,8 @@ mod tests {
     #[test]
     fn arguments_out_of_range_are_refused() {
         for line in [["--slenderness-deg", "90"], ["--dt", "0"], ["--units", "furlong"], ["--dt", "NaN"]] {
-            assert!(Line::try_parse_from([&["record", "file"][..], &line[..]].concat()).is_err(), "{line:?}");
+            let words = ["sprag", "record", "file"].into_iter().chain(line).map(Into::into).collect::<Vec<_>>();
+            assert!(crate::line::read(&words).is_err(), "{line:?}");
         }
     }
 }

@@ -109,21 +109,8 @@ impl Run for SynthesizeArguments {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use clap::Parser;
-    use sprag_sim::interrupt::Interrupt;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        arguments: SynthesizeArguments,
-    }
-
     fn run_line(line: &[&str]) -> (i32, String, String) {
-        let parsed = Line::try_parse_from([&["synthesize"], line].concat()).unwrap_or_else(|error| panic!("{error}"));
-        let (mut out, mut err, interrupt) = (Vec::new(), Vec::new(), Interrupt::default());
-        let status = Context { out: &mut out, err: &mut err, interrupt: &interrupt, quiet: false }.run(&parsed.arguments);
-        (status, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+        crate::line::run(&[&["synthesize"], line].concat())
     }
 
     #[test]
