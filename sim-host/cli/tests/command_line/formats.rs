@@ -3,19 +3,25 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Output;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
+use super::studies::on_any_threads;
 use super::{errors, said, scene, sprag, summary};
 
 /// A device's name that CSV has to quote.
 const QUOTED: &str = "device.1.name=\"one, \\\"inerter\\\"\"";
 
+/// Expects that a run ends well and says nothing on the side.
+fn silent(output: &Output) {
+    assert!(output.status.success() && errors(&said(output)).is_empty(), "{}", said(output));
+}
+
 /// Runs `sprag` with `--out`, expects that it ends well and says nothing on the side, and gives the names of its files.
 fn written(arguments: &[&str], out: &Path) -> Vec<String> {
-    let output = sprag(&[arguments, &["--out", out.to_str().unwrap()]].concat());
-    assert!(output.status.success() && errors(&said(&output)).is_empty(), "{}", said(&output));
+    silent(&sprag(&[arguments, &["--out", out.to_str().unwrap()]].concat()));
     let mut names: Vec<String> =
         fs::read_dir(out).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
@@ -100,15 +106,8 @@ fn parquet_holds_what_csv_holds_and_what_made_it() {
 fn files_do_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene("figure08");
-    let outs = ["1", "3"].map(|threads| {
-        let out = folder.path().join(threads);
-        written(&["map", &scene, "--set", "map.x.cells=90", "--set", "map.y.cells=20", "--threads", threads], &out);
-        out
-    });
-    for name in ["map.csv", "map.parquet", "map.svg", "map.png", "rotation.png"] {
-        let [one, other] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(one == other && !one.is_empty(), "{name}");
-    }
+    let line = ["map", &scene, "--set", "map.x.cells=90", "--set", "map.y.cells=20"];
+    on_any_threads(folder.path(), &line, silent, &["map.csv", "map.parquet", "map.svg", "map.png", "rotation.png"]);
 }
 
 #[test]

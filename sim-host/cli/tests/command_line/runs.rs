@@ -1,8 +1,9 @@
 //! What runs write and say.
 
 use std::fs;
-use std::process::Command;
+use std::process::{Command, Output};
 
+use super::studies::on_any_threads;
 use super::{refused, said, scene, sprag, summary, well};
 
 #[test]
@@ -247,33 +248,22 @@ fn every_subcommand_has_help_with_an_example() {
     }
 }
 
+/// Expects that a run succeeds and says `words`.
+fn says(words: &str) -> impl Fn(&Output) {
+    move |output: &Output| {
+        let table = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success() && table.contains(words), "{}{table}", said(output));
+    }
+}
+
 #[test]
 fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
-    let outs = ["1", "2"].map(|threads| {
-        let out = folder.path().join(threads);
-        let output = well(sprag(&[
-            "loop",
-            &scene("controller"),
-            "--set",
-            "run.free_time_s=0",
-            "--set",
-            "controller.rate_hz=500",
-            "--monte-carlo",
-            "3",
-            "--threads",
-            threads,
-            "--out",
-            out.to_str().unwrap(),
-        ]));
-        assert!(String::from_utf8_lossy(&output.stdout).contains("ideal pair"));
-        out
-    });
-    for name in ["summary.json", "history.csv", "loop.svg", "monte_carlo.csv"] {
-        let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(!one.is_empty() && one == two, "{name}");
-    }
-    let summary = summary(&outs[0]);
+    let sets = ["--set", "run.free_time_s=0", "--set", "controller.rate_hz=500", "--monte-carlo", "3"];
+    let controller = scene("controller");
+    let line = [&["loop", &controller][..], &sets].concat();
+    let files = ["summary.json", "history.csv", "loop.svg", "monte_carlo.csv"];
+    let (_, summary) = on_any_threads(folder.path(), &line, says("ideal pair"), &files);
     let run = &summary["runs"][0];
     assert_eq!(
         (&summary["command"], &run["outcome"], &run["controller_state"]),
@@ -287,20 +277,10 @@ fn loop_writes_its_files_and_does_not_depend_on_the_number_of_threads() {
 fn specimens_of_impacts_are_those_of_their_seeds() {
     let folder = tempfile::tempdir().unwrap();
     let scattered = ["--set", "block.restitution_scatter=0.03", "--set", "block.restitution_seed=5"];
-    let outs = ["1", "2"].map(|threads| {
-        let out = folder.path().join(threads);
-        let (scene, out_text) = (scene("near_fault"), out.to_str().unwrap().to_owned());
-        let rest = ["--monte-carlo", "4", "--threads", threads, "--out", &out_text];
-        let output = well(sprag(&[&["simulate", &scene][..], &scattered, &rest].concat()));
-        assert!(String::from_utf8_lossy(&output.stdout).contains("4 specimens"));
-        out
-    });
-    for name in ["summary.json", "monte_carlo.csv"] {
-        let [one, two] = outs.each_ref().map(|out| fs::read(out.join(name)).unwrap());
-        assert!(!one.is_empty() && one == two, "{name}");
-    }
-    let table = fs::read_to_string(outs[0].join("monte_carlo.csv")).unwrap();
-    let summary = summary(&outs[0]);
+    let near_fault = scene("near_fault");
+    let line = [&["simulate", &near_fault][..], &scattered, &["--monte-carlo", "4"]].concat();
+    let (out, summary) = on_any_threads(folder.path(), &line, says("4 specimens"), &["summary.json", "monte_carlo.csv"]);
+    let table = fs::read_to_string(out.join("monte_carlo.csv")).unwrap();
     let devices = summary["runs"].as_array().unwrap();
     assert_eq!(summary["monte_carlo"].as_array().unwrap().len(), devices.len());
     assert_eq!(table.lines().count(), 1 + 4 * devices.len(), "{table}");
@@ -308,7 +288,7 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
     for (number, seed) in (5..9).enumerate() {
         let out = folder.path().join(seed.to_string());
         let set = format!("block.restitution_seed={seed}");
-        let line = ["simulate", &scene("near_fault"), scattered[0], scattered[1], "--set", &set, "--out", out.to_str().unwrap()];
+        let line = ["simulate", &near_fault, scattered[0], scattered[1], "--set", &set, "--out", out.to_str().unwrap()];
         well(sprag(&line));
         let alone = super::summary(&out);
         for device in alone["runs"].as_array().unwrap() {
@@ -331,7 +311,7 @@ fn specimens_of_impacts_are_those_of_their_seeds() {
         assert_eq!(rows.iter().map(|row| row[1]).collect::<Vec<_>>(), ["5", "6", "7", "8"]);
         assert!(rows.iter().any(|row| row[3] != rows[0][3] || row[4] != rows[0][4]), "{name}: {rows:?}");
     }
-    let output = sprag(&["simulate", &scene("near_fault"), "--monte-carlo", "4", "--out", folder.path().to_str().unwrap()]);
+    let output = sprag(&["simulate", &near_fault, "--monte-carlo", "4", "--out", folder.path().to_str().unwrap()]);
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(!output.status.success() && error.contains("block.restitution_scatter"), "{error}");
     assert_eq!(error.trim().lines().count(), 1, "{error}");

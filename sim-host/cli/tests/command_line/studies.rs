@@ -30,7 +30,7 @@ fn names_the_bad_record(output: &Output) {
 }
 
 /// Runs `line` on one thread and on three, looks at each run, and expects the same bytes in `files`; where one wrote them, and its summary.
-fn on_any_threads(folder: &Path, line: &[&str], look: impl Fn(&Output), files: &[&str]) -> (PathBuf, Value) {
+pub(super) fn on_any_threads(folder: &Path, line: &[&str], look: impl Fn(&Output), files: &[&str]) -> (PathBuf, Value) {
     let [out, other] = ["1", "3"].map(|threads| {
         let out = folder.join(threads);
         look(&sprag(&[line, &["--threads", threads, "--out", out.to_str().unwrap()]].concat()));
