@@ -1,5 +1,7 @@
 //! Scenes as text.
 
+use std::path::Path;
+
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 use sprag_sim::simulation::{DeviceRun, simulate};
@@ -33,7 +35,18 @@ pub fn runs(text: &str) -> Vec<DeviceRun> {
     run(&Scene::parse(text, "scene.toml").expect("a scene"))
 }
 
-/// The same of one that has been read.
+/// The run of a scene with one device, whose records are in `folder`.
+///
+/// # Errors
+/// Why it is no scene, or its run does not end.
+pub fn run_in(text: &str, folder: &Path) -> Result<DeviceRun, String> {
+    let mut scene = Scene::parse(text, "scene.toml").map_err(|error| error.to_string())?;
+    scene.folder = folder.to_owned();
+    let ground = scene.ground_motions().map_err(|error| error.to_string())?;
+    Ok(simulate(&scene, &ground, &Interrupt::default()).map_err(|error| error.to_string())?.remove(0))
+}
+
+/// The runs of a scene that has been read.
 ///
 /// # Panics
 /// If a run does not end.

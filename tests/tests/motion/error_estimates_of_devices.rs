@@ -7,9 +7,8 @@ use rayon::prelude::*;
 use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::simulate::run_with;
-use sprag_sim::scene::Scene;
 use sprag_sim::simulation::DeviceRun;
-use sprag_tests::scene_text::run;
+use sprag_tests::scene_text::run_in;
 
 const SEED: u64 = 23;
 const COUNT: u64 = 300;
@@ -22,9 +21,7 @@ const BOUNDED: f64 = 0.99;
 
 /// The scene in `text` as accurately as `level` asks.
 fn sprag(text: &str, folder: &Path, level: &str) -> DeviceRun {
-    let mut scene = Scene::parse(&format!("{text}\n[accuracy]\nlevel = {level:?}\n"), "scene").unwrap();
-    scene.folder = folder.to_owned();
-    run(&scene).remove(0)
+    run_in(&format!("{text}\n[accuracy]\nlevel = {level:?}\n"), folder).unwrap()
 }
 
 /// What is known of one scene at one level.

@@ -11,10 +11,8 @@ use sprag_reference::generate::scene;
 use sprag_reference::ledger::Shares;
 use sprag_reference::method::Method;
 use sprag_reference::tally::Tally;
-use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::Scene;
 use sprag_sim::simulation::energy::COLUMNS;
-use sprag_sim::simulation::simulate;
+use sprag_tests::scene_text::run_in;
 
 const SEED: u64 = 16;
 const COUNT: u64 = 300;
@@ -25,10 +23,7 @@ fn sprag(text: &str, folder: &Path, method: Method, step: f64) -> Result<Other, 
     for (key, value) in method.keys(step) {
         text.push_str(&format!("{key} = {value}\n"));
     }
-    let mut scene = Scene::parse(&text, "second program").map_err(|error| error.to_string())?;
-    scene.folder = folder.to_owned();
-    let ground = scene.ground_motions().map_err(|error| error.to_string())?;
-    let run = simulate(&scene, &ground, &Interrupt::default()).map_err(|error| error.to_string())?.remove(0);
+    let run = run_in(&text, folder)?;
     let entries = run.energy.ok_or("no ledger")?.entries;
     let ledger =
         Shares::of(|name| COLUMNS.into_iter().zip(entries.row()).find(|(column, _)| *column == name).map(|(_, value)| value))

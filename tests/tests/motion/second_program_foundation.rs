@@ -4,9 +4,7 @@
 use rayon::prelude::*;
 use sprag_reference::foundation::{FoundationRun, run};
 use sprag_reference::generate::foundation::scene;
-use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::Scene;
-use sprag_sim::simulation::simulate;
+use sprag_tests::scene_text::run_in;
 
 /// Largest |Δθ|/α at common samples, up to a fall that nothing brings back.
 fn apart(ours: &FoundationRun, theirs: &FoundationRun, alpha: f64) -> f64 {
@@ -18,10 +16,7 @@ fn apart(ours: &FoundationRun, theirs: &FoundationRun, alpha: f64) -> f64 {
 }
 
 fn sprag(text: &str, folder: &std::path::Path) -> Result<FoundationRun, String> {
-    let mut scene = Scene::parse(text, "second program").map_err(|error| error.to_string())?;
-    scene.folder = folder.to_owned();
-    let ground = scene.ground_motions().map_err(|error| error.to_string())?;
-    let run = simulate(&scene, &ground, &Interrupt::default()).map_err(|error| error.to_string())?.remove(0);
+    let run = run_in(text, folder)?;
     let mut samples: Vec<[f64; 2]> = run.history.samples.iter().map(|sample| [sample.time_s, sample.rotation_rad]).collect();
     samples.retain(|[time, _]| (time / 0.01 - (time / 0.01).round()).abs() < 1e-6);
     samples.dedup_by(|later, sooner| later[0] - sooner[0] < 1e-9);

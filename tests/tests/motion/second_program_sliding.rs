@@ -4,9 +4,7 @@
 use rayon::prelude::*;
 use sprag_reference::generate::sliding::scene;
 use sprag_reference::sliding::{SlidingRun, run};
-use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::Scene;
-use sprag_sim::simulation::simulate;
+use sprag_tests::scene_text::run_in;
 
 /// Differences of θ over α and of x over R, and whether outcome and impacts are the same.
 #[derive(Clone, Copy, Debug)]
@@ -46,11 +44,7 @@ fn apart(ours: &SlidingRun, theirs: &SlidingRun, [alpha, size]: [f64; 2]) -> Apa
 fn sprag(text: &str, folder: &std::path::Path, step_ratio: Option<f64>) -> Result<SlidingRun, String> {
     let steps =
         step_ratio.map(|ratio| format!("\n[accuracy]\nmethod = \"runge-kutta-4\"\nstep_ratio = {ratio}\n")).unwrap_or_default();
-    let text = text.to_owned() + &steps;
-    let mut scene = Scene::parse(&text, "second program").map_err(|error| error.to_string())?;
-    scene.folder = folder.to_owned();
-    let ground = scene.ground_motions().map_err(|error| error.to_string())?;
-    let run = simulate(&scene, &ground, &Interrupt::default()).map_err(|error| error.to_string())?.remove(0);
+    let run = run_in(&(text.to_owned() + &steps), folder)?;
     let samples = run.history.samples.iter().map(|sample| [sample.time_s, sample.rotation_rad, sample.displacement_m]);
     let sliding = run.sliding.ok_or("no report of the base")?;
     Ok(SlidingRun {

@@ -44,7 +44,7 @@ pub fn study(optimise: &str, records: &Path) -> Study {
 }
 
 /// What `then` makes of the answer to `study`.
-fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
+pub fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
     let records = StudyRecords::read(study).unwrap();
     let problem = Problem::new(Choices::of(study).unwrap(), &records.records);
     let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();

@@ -2,12 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_sim::interrupt::Interrupt;
-use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::study::Study;
 use sprag_studies::optimise::choice_page::{choice_page, choice_picture, delay_picture};
 use sprag_studies::optimise::findings::Findings;
-use sprag_studies::optimise::problem::{Choices, Problem, Solution};
+use sprag_studies::optimise::problem::{Problem, Solution};
 use sprag_tests::pulse_records::sine_pulses;
 
 /// A study of the block of 1 m with these keys of `[optimise]`, under the records of a folder, or none.
@@ -20,13 +18,12 @@ fn study(set: &str, optimise: &str, records: Option<&Path>) -> Study {
     Study::parse(&text, "study.toml", Path::new(""), &[], &records).unwrap()
 }
 
+/// What `then` makes of the answer to `study`, all of whose runs end.
 fn answered<R>(study: &Study, then: impl FnOnce(&Problem<'_>, &Solution, &Findings) -> R) -> R {
-    let records = StudyRecords::read(study).unwrap();
-    let problem = Problem::new(Choices::of(study).unwrap(), &records.records);
-    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-    assert!(solution.failures.is_empty(), "{:?}", solution.failures);
-    let findings = Findings::of(&problem, &solution);
-    then(&problem, &solution, &findings)
+    super::optimise::answered(study, |problem, solution, findings| {
+        assert!(solution.failures.is_empty(), "{:?}", solution.failures);
+        then(problem, solution, findings)
+    })
 }
 
 const LAWS: &str = "laws = ['inerter', 'clutched-pair']\n";
