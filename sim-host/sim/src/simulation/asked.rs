@@ -188,11 +188,9 @@ mod tests {
     use sprag_shared::observers::ledger::Account;
     use sprag_shared::structure::block::{Block, Geometry};
 
-    use super::super::{DeviceRun, simulate};
+    use super::super::{DeviceRun, runs_of};
     use super::*;
     use crate::history::Sample;
-    use crate::interrupt::Interrupt;
-    use crate::scene::Scene;
 
     const INTERVAL: f64 = 0.002;
 
@@ -203,8 +201,7 @@ mod tests {
              device = [{{ kind = 'none' }}]
              output = {{ energy = true, interval_s = {INTERVAL} }}"
         );
-        let scene = Scene::parse(&text, "scene").unwrap();
-        simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+        runs_of(&text).remove(0)
     }
 
     /// `part` of a history at `time` (s), on the straight line between its samples.
@@ -253,8 +250,7 @@ mod tests {
              ground = [{ motion = 'sine', amplitude_ratio = 1.5, frequency_ratio = 4.0 }]
              accuracy = { method = 'runge-kutta-4', step_s = 0.01 }
              output = { energy = true, interval_s = 0.01 }";
-        let scene = Scene::parse(scene, "scene").unwrap();
-        let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+        let run = runs_of(scene).remove(0);
         let history = &run.energy.as_ref().unwrap().history;
         let moves = |sample: &&Sample| sample.rotation_rad != 0.0 && sample.velocity_rad_s != 0.0;
         for Sample { time_s, .. } in run.history.samples.iter().filter(moves) {

@@ -4,9 +4,7 @@ use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::{GRAVITY, RECTANGLE_INERTIA_RATIO};
 
-use super::{DeviceRun, simulate};
-use crate::interrupt::Interrupt;
-use crate::scene::Scene;
+use super::{DeviceRun, runs_of};
 
 const SLENDERNESS_DEG: f64 = 15.0;
 
@@ -21,8 +19,7 @@ fn started(start: &str, device: &str, rest_speed_ratio: f64) -> DeviceRun {
         device = [{{ mass_ratio = 1.0, {device} }}]
         run = {{ free_time_s = 20.0, rest_speed_ratio = {rest_speed_ratio:e} }}"
     );
-    let scene = Scene::parse(&text, "scene").unwrap();
-    simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+    runs_of(&text).remove(0)
 }
 
 const INERTER: &str = "kind = 'inerter', kinematics = 'consistent'";
@@ -115,8 +112,7 @@ fn the_force_on_the_support_has_the_drag_of_open_clutches() {
             device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid', actuation = {{ engagement_delay_s = 10.0 }},
                 flywheel = {{ brake_deceleration_m_s2 = 20.0, drag_rate_1_s = 5.0 }} }}]"
         );
-        let scene = Scene::parse(&text, "scene").unwrap();
-        simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0).peak_force_ratio.unwrap()
+        runs_of(&text).remove(0).peak_force_ratio.unwrap()
     });
     assert!(found[0] == found[1] && (found[0] / 0.208_49 - 1.0).abs() < 1e-4, "{found:?}");
 }
@@ -140,8 +136,7 @@ fn clutches_that_hold_a_block_down_press_as_statics_says() {
                 device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {clutch}, rack = {{ dry_friction_ratio = {rack} }},
                     flywheel = {{ dry_deceleration_m_s2 = 10.0{brake} }} }}]"
             );
-            let scene = Scene::parse(&text, "scene").unwrap();
-            let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+            let run = runs_of(&text).remove(0);
             assert_eq!(run.outcome, Outcome::NoRocking, "{text}");
             let push = (amplitude - 1.0) * math::tan(SLENDERNESS_DEG.to_radians());
             // A commanded clutch is open until the push overcomes the rack.

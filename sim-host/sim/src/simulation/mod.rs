@@ -33,3 +33,10 @@ pub mod watchers;
 
 pub use device_run::{DeviceRun, ErrorReport};
 pub use run::{RunError, simulate, simulate_for_study};
+
+/// The runs of the scene in `text`, one a device.
+#[cfg(all(test, feature = "effects"))]
+fn runs_of(text: &str) -> Vec<DeviceRun> {
+    let scene = crate::scene::Scene::parse(text, "scene").unwrap();
+    simulate(&scene, &scene.ground_motions().unwrap(), &crate::interrupt::Interrupt::default()).unwrap()
+}

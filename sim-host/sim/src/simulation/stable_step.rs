@@ -62,9 +62,7 @@ pub(crate) fn stable_step(step: f64, decay: f64) -> f64 {
 mod tests {
     use sprag_shared::observers::outcome::Outcome;
 
-    use crate::interrupt::Interrupt;
-    use crate::scene::Scene;
-    use crate::simulation::simulate;
+    use crate::simulation::runs_of;
 
     #[test]
     fn fixed_steps_follow_what_fast_viscous_forces_leave_of_a_motion() {
@@ -80,8 +78,7 @@ mod tests {
                     run = {{ free_time_s = 1.0 }}
                     accuracy = {{ {accuracy} }}"
                 );
-                let scene = Scene::parse_with(&text, "scene", &[]).unwrap();
-                let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+                let run = runs_of(&text).remove(0);
                 run.peak_rotation.unwrap()
             });
             let near = |other: f64, tolerance: f64| (other / peaks[0] - 1.0).abs() < tolerance;
@@ -100,8 +97,7 @@ mod tests {
                     ground = [{{ motion = 'sine', amplitude_ratio = 3.0, frequency_hz = 1.0 }}]
                     accuracy = {{ {accuracy} }}"
                 );
-                let scene = Scene::parse_with(&text, "scene", &[]).unwrap();
-                let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+                let run = runs_of(&text).remove(0);
                 assert_eq!((run.outcome, run.impacts), (Outcome::OverturnedAfterImpact, 1), "{damping} {accuracy}");
             }
         }
