@@ -63,8 +63,7 @@ fn runs_of(scene: &str, text: &str, set: &[&str]) -> Vec<DeviceRun> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("record.csv");
     std::fs::write(&path, text).unwrap();
-    let set: Vec<String> = set.iter().map(|&set| set.to_owned()).collect();
-    let mut scene = Scene::parse_with(scene, "scene.toml", &set).unwrap();
+    let mut scene = Scene::parse_with(scene, "scene.toml", set).unwrap();
     scene.use_record(&path).unwrap();
     run(&scene)
 }

@@ -22,8 +22,7 @@ fn scene(device: &str, more: &[&str]) -> Scene {
     let text = format!(
         "[block]\nsize_m = 2\nslenderness_deg = 10\nmass_kg = 1e4\n[[device]]\n{device}[[ground]]\nmotion = 'record'\n[run]\nfree_time_s = 3\n"
     );
-    let more: Vec<String> = more.iter().map(|&change| change.to_owned()).collect();
-    Scene::parse_with(&text, "scene.toml", &more).unwrap()
+    Scene::parse_with(&text, "scene.toml", more).unwrap()
 }
 
 /// Pulses that rock the pier, of which one overturns it bare.

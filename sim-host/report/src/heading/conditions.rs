@@ -175,8 +175,8 @@ mod tests {
              device = [{{ kind = 'none' }}, {{ kind = 'inerter', mass_ratio = 0.5 }}, {{ kind = 'clutched-pair', mass_ratio = 0.5 }}]
              ground = [{ground}]"
         );
-        let changes: Vec<String> = Some(change.to_owned()).into_iter().filter(|change| !change.is_empty()).collect();
-        Scene::parse_with(&text, "scene", &changes).unwrap()
+        let changes: &[&str] = if change.is_empty() { &[] } else { &[change] };
+        Scene::parse_with(&text, "scene", changes).unwrap()
     }
 
     const SINE: &str = "{ motion = 'sine', amplitude_ratio = 4.0, frequency_ratio = 3.0, scale = 2.0 }";

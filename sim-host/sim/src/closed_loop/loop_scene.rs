@@ -83,7 +83,7 @@ mod tests {
             let text = "block = { size_m = 2.0, slenderness_deg = 10.0 }
                 device = [{ kind = 'none' }, { kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid' }]
                 ground = [{ motion = 'sine', amplitude_g = 0.3, frequency_hz = 1.0 }]";
-            LoopScene::new(Scene::parse_with(text, "scene", &[change.to_owned()]).unwrap())
+            LoopScene::new(Scene::parse_with(text, "scene", &[change]).unwrap())
         };
         assert_eq!(scene("title=pier").unwrap().pairs, [1]);
         for (change, refusal) in [

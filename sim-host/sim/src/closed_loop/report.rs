@@ -255,7 +255,7 @@ mod tests {
             run = {{ free_time_s = 0.0 }}
             controller = {{ rate_hz = 500.0, prelude_s = {prelude} }}"
         );
-        let desk = LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap();
+        let desk = LoopScene::new(Scene::parse(&text, "scene").unwrap()).unwrap();
         let interrupt = Interrupt::default();
         let (task, error, looped) = desk.task(0, 1, &interrupt).answered().unwrap();
         LoopReport::of_answer(&task, error, looped).unwrap().summary

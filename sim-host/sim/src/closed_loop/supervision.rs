@@ -166,7 +166,7 @@ mod tests {
             [controller]
             {controller}"
         );
-        LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
+        LoopScene::new(Scene::parse(&text, "scene").unwrap()).unwrap()
     }
 
     /// What its supervisor allows.

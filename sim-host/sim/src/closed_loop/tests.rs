@@ -31,7 +31,7 @@ fn scene(device: &str, ground: &str) -> LoopScene {
         device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, {device} }}]
         ground = [{{ {ground} }}]"
     );
-    LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap()
+    LoopScene::new(Scene::parse(&text, "scene").unwrap()).unwrap()
 }
 
 /// Truths over `end` (s) of a plant whose first clutch is engaged for 0.2 s of each 0.5 s and the other one for 0.2 s after that, seen at
@@ -139,7 +139,7 @@ fn peak_of_engaged(rate_hz: u32, device: &str, ground: &str) -> f64 {
         ground = [{{ motion = 'cosine', frequency_ratio = 3.0, {ground} }}]
         controller = {{ law = 'always-engaged', rate_hz = {rate_hz}, substeps = 1 }}"
     );
-    let desk = LoopScene::new(Scene::parse_with(&text, "scene", &[]).unwrap()).unwrap();
+    let desk = LoopScene::new(Scene::parse(&text, "scene").unwrap()).unwrap();
     let (.., looped) = desk.task(0, 1, &Interrupt::default()).answered::<()>().unwrap();
     looped.extremes.peaks.rotation / desk.scene.block.slenderness()
 }
@@ -206,7 +206,7 @@ fn a_table_of_signs_does_not_follow_the_noise_of_a_still_ground() {
         device = [{ kind = 'clutched-pair', mass_ratio = 0.5 }]
         ground = [{ motion = 'sine', amplitude_g = 0.25, frequency_hz = 1.0 }]
         controller = { law = 'sign-table', sensors.suite = 'adis16470' }";
-    let desk = LoopScene::new(Scene::parse_with(text, "scene", &[]).unwrap()).unwrap();
+    let desk = LoopScene::new(Scene::parse(text, "scene").unwrap()).unwrap();
     let (.., looped) = desk.task(0, 1, &Interrupt::default()).answered::<Decisions>().unwrap();
     let report = looped.ticks.report();
     assert!(report.ideal_switches > 50 && report.switches < 2 * report.ideal_switches, "{report:?}");

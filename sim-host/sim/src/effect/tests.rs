@@ -51,7 +51,7 @@ fn an_ideal_scene_turns_nothing_on_and_one_of_everything_turns_all_on() {
         let text = text_of(&Explanation::of(&ideal, index));
         assert!(text.contains("ideal: the device's state follows from the block's"), "{text}");
     }
-    let scene = Scene::parse_with(ALL, "scene", &["block.geometry=slender".to_owned()]).unwrap();
+    let scene = Scene::parse_with(ALL, "scene", &["block.geometry=slender"]).unwrap();
     let scenes: Vec<Scene> = BASES.iter().map(|text| Scene::parse(text, "scene").unwrap()).chain([scene]).collect();
     let devices = scenes.iter().flat_map(|scene| (0..scene.devices.len()).flat_map(|index| Effects::of_device(scene, index).on));
     let on: Vec<_> = scenes.iter().flat_map(|scene| Effects::of_scene(scene).on).chain(devices).collect();
@@ -74,8 +74,7 @@ fn text_of(explanation: &Explanation) -> String {
 }
 
 fn explained(index: usize, overrides: &[&str]) -> String {
-    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
-    text_of(&Explanation::of(&Scene::parse_with(ALL, "scene", &overrides).unwrap(), index))
+    text_of(&Explanation::of(&Scene::parse_with(ALL, "scene", overrides).unwrap(), index))
 }
 
 #[test]

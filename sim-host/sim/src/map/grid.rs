@@ -414,7 +414,7 @@ mod tests {
 
     #[test]
     fn whatever_is_not_a_plain_pulse_is_simulated() {
-        let scene = |change: &str| Scene::parse_with(SCENE, "scene", &[change.to_owned()]).unwrap();
+        let scene = |change: &str| Scene::parse_with(SCENE, "scene", &[change]).unwrap();
         for change in
             ["block.restitution=0.7", "accuracy.tolerance=1e-15", "accuracy.tolerance=1e-6", "run.rest_speed_ratio=1e-6"]
         {

@@ -27,8 +27,7 @@ frequency_ratio = 3.0
 "#;
 
 fn parsed(overrides: &[&str]) -> Result<Scene, String> {
-    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
-    Scene::parse_with(SCENE, "scene.toml", &overrides).map_err(|error| error.to_string())
+    Scene::parse_with(SCENE, "scene.toml", overrides).map_err(|error| error.to_string())
 }
 
 fn device(index: usize, item: &str) -> SceneDevice {

@@ -91,7 +91,7 @@ mod tests {
                 slenderness_deg = 12.0
                 foundation = {{ vertical_frequency_hz = 10.0, damping_ratio = 0.3 }}"
             );
-            Scene::parse_with(&text, "scene", &[]).map(drop).map_err(|error| error.to_string())
+            Scene::parse(&text, "scene").map(drop).map_err(|error| error.to_string())
         };
         assert_eq!(scene("support"), Ok(()));
         assert_eq!(

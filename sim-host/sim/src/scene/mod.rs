@@ -79,19 +79,22 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] names the key and what it may be.
     pub fn parse(text: &str, origin: &str) -> Result<Scene, SceneError> {
-        Scene::parse_with(text, origin, &[])
+        Scene::check(document::from_text(text, origin)?, origin).map_err(|error| document::with_line(error, text))
     }
 
     /// [`Scene::parse`] with overrides (`KEY=VALUE`).
     ///
     /// # Errors
     /// As [`Scene::parse`], and for an override that names no key.
-    pub fn parse_with(text: &str, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
+    pub fn parse_with(text: &str, origin: &str, overrides: &[impl AsRef<str>]) -> Result<Scene, SceneError> {
         if overrides.is_empty() {
-            let checked = Scene::check(document::from_text(text, origin)?, origin);
-            return checked.map_err(|error| document::with_line(error, text));
+            return Scene::parse(text, origin);
         }
-        Scene::of_table(document::table(text, origin)?, origin, overrides)
+        let mut table = document::table(text, origin)?;
+        for item in overrides {
+            overrides::apply(&mut table, item.as_ref(), origin)?;
+        }
+        Scene::of_table(table, origin, &[])
     }
 
     /// The scene in `table` with overrides (`KEY=VALUE`).

@@ -26,8 +26,7 @@ motion = "record"
 "#;
 
 fn scene(overrides: &[&str]) -> Result<Scene, String> {
-    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
-    Scene::parse_with(SCENE, "scene.toml", &overrides).map_err(|error| error.to_string())
+    Scene::parse_with(SCENE, "scene.toml", overrides).map_err(|error| error.to_string())
 }
 
 fn motions(scene: &Scene) -> Result<GroundMotions, String> {

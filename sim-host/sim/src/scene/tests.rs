@@ -22,8 +22,7 @@ frequency_ratio = 3.0
 "#;
 
 fn refused(overrides: &[&str]) -> String {
-    let overrides: Vec<String> = overrides.iter().map(|item| (*item).to_owned()).collect();
-    let message = Scene::parse_with(SCENE, "scene.toml", &overrides).expect_err("must be refused").to_string();
+    let message = Scene::parse_with(SCENE, "scene.toml", overrides).expect_err("must be refused").to_string();
     assert!(!message.contains('\n'), "one line: {message}");
     assert!(message.starts_with("scene.toml"), "names the file: {message}");
     message
@@ -189,7 +188,7 @@ fn a_flywheel_train_gives_the_mass_ratio_of_equation_8() {
     let text = SCENE.replace("mass_ratio = 0.5", "flywheels = [{ mass_kg = 3.0, radius_m = 0.4, pinion_radius_m = 0.1 }]");
     let message = Scene::parse(&text, "scene.toml").unwrap_err().to_string();
     assert!(message.contains("needs block.mass_kg"), "{message}");
-    let scene = Scene::parse_with(&text, "scene.toml", &["block.mass_kg=48".to_owned()]).unwrap();
+    let scene = Scene::parse_with(&text, "scene.toml", &["block.mass_kg=48"]).unwrap();
     // ½ · 3 · (0.4/0.1)² / 48 = 0.5.
     assert!((scene.devices[1].device.mass_ratio - 0.5).abs() < 1e-15);
 }

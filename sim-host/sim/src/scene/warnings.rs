@@ -151,8 +151,7 @@ mod tests {
         [[device]]\nkind = \"clutched-pair\"\nmass_ratio = 0.5\n[[ground]]\nmotion = \"sine\"\namplitude_g = 0.3\nfrequency_hz = 1.0\n";
 
     fn warnings(changes: &[&str]) -> Vec<String> {
-        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        Scene::parse_with(SCENE, "a.toml", &changes).unwrap_or_else(|error| panic!("{error}")).warnings()
+        Scene::parse_with(SCENE, "a.toml", changes).unwrap_or_else(|error| panic!("{error}")).warnings()
     }
 
     #[test]

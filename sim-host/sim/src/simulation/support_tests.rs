@@ -24,8 +24,7 @@ fn scene(folder: &Path, device: &str, changes: &[&str]) -> Scene {
          ground = [{{ motion = 'record', file = 'ground.csv', start_s = 0.4 }}]\n\
          output.energy = true\n"
     );
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    let mut scene = Scene::parse_with(&text, "scene", &changes).unwrap();
+    let mut scene = Scene::parse_with(&text, "scene", changes).unwrap();
     scene.folder = folder.to_owned();
     scene
 }
