@@ -10,7 +10,7 @@ use crate::math::exp;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::state::Limits;
-use crate::observers::ledger::{Account, Clutching, Entries, Ledger};
+use crate::observers::ledger::Entries;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack};
@@ -78,8 +78,7 @@ fn against_held_flywheels_it_is_friction_of_the_rack() {
         for engagement in CLUTCHES {
             let shake = pair(geometry, 3.0, 5.0);
             let entries = |drivetrain: &Drivetrain| -> (f64, Entries<f64>) {
-                let account = Account { clutching: Clutching::Real, mass_ratio: SIGMA, ..Account::default() };
-                let mut ledger = Ledger::new(&shake.structure.block, geometry, &account);
+                let mut ledger = shake.ledger(drivetrain);
                 (shake.watched(drivetrain, &tight(), &mut ledger).peak, ledger.entries)
             };
             let (peak, own) = entries(&open(engagement, FlywheelLosses { brake_deceleration: 100.0, ..dragged(rate) }));

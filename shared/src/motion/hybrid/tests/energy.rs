@@ -3,7 +3,6 @@
 use std::vec::Vec;
 
 use super::{drivetrains, pair, tight};
-use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
 
@@ -13,15 +12,7 @@ fn the_ledger_closes_for_every_drivetrain() {
         for (name, drivetrain) in drivetrains() {
             for (amplitude, frequency) in [(3.0, 5.0), (1.6, 3.0)] {
                 let shake = pair(geometry, amplitude, frequency);
-                let ideal = drivetrain.engagement == Engagement::Ideal;
-                let account = Account {
-                    clutching: if ideal { Clutching::Ideal } else { Clutching::Real },
-                    mass_ratio: 0.5,
-                    rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
-                    on_support: drivetrain.support.moves(),
-                    ..Account::default()
-                };
-                let mut ledger = Ledger::new(&shake.structure.block, geometry, &account);
+                let mut ledger = shake.ledger(&drivetrain);
                 shake.watched(&drivetrain, &tight(), &mut ledger);
                 let entries = ledger.entries;
                 let residual = entries.residual().abs() / entries.input.abs();
@@ -47,12 +38,12 @@ fn what_the_ideal_clutch_creates() {
     let shake = super::limits::engaging_at_speed(Geometry::Slender);
     let k = shake.structure.device.mass_ratio / shake.structure.block.inertia_ratio();
     let mut created = Vec::new();
-    for (engagement, clutching) in [(Engagement::Ideal, Clutching::Ideal), (Engagement::Rigid, Clutching::Real)] {
-        let account = Account { clutching, mass_ratio: 0.5, ..Account::default() };
-        let mut ledger = Ledger::new(&shake.structure.block, Geometry::Slender, &account);
+    for engagement in [Engagement::Ideal, Engagement::Rigid] {
         let flywheel = FlywheelLosses { brake_deceleration: f64::INFINITY, ..FlywheelLosses::default() };
         let flywheel = if engagement == Engagement::Ideal { FlywheelLosses::default() } else { flywheel };
-        let seen = shake.watched(&Drivetrain { engagement, flywheel, ..Drivetrain::default() }, &tight(), &mut ledger);
+        let drivetrain = Drivetrain { engagement, flywheel, ..Drivetrain::default() };
+        let mut ledger = shake.ledger(&drivetrain);
+        let seen = shake.watched(&drivetrain, &tight(), &mut ledger);
         let at_speed: Vec<f64> =
             seen.switches.iter().filter(|(time, ..)| (time - 0.22).abs() < 1e-12).map(|s| s.1.velocity).collect();
         let entries = ledger.entries;

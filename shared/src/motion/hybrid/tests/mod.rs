@@ -27,6 +27,7 @@ use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
+use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::observers::peaks::Peaks;
 use crate::structure::Structure;
 use crate::structure::block::{Block, Geometry};
@@ -139,6 +140,27 @@ impl Shake {
         let bound = if quiet { 0.0 } else { self.pieces.iter().map(largest).fold(0.0, f64::max) };
         let block = self.structure.loaded().unwrap().block;
         Limits { overturned: self.structure.geometry.point_of_no_return(block.slenderness(), bound), events: 100_000 }
+    }
+
+    /// Under the mirrored pulse.
+    pub fn mirrored(&self) -> Shake {
+        let mut mirrored = self.clone();
+        if let (AnySegment::Sine(sine), _) = &mut mirrored.pieces[0] {
+            sine.terms[0].amplitude = -sine.terms[0].amplitude;
+        }
+        mirrored
+    }
+
+    /// The ledger of its device with `drivetrain`.
+    pub fn ledger(&self, drivetrain: &Drivetrain) -> Ledger<f64> {
+        let account = Account {
+            clutching: if drivetrain.engagement == Engagement::Ideal { Clutching::Ideal } else { Clutching::Real },
+            mass_ratio: self.structure.device.mass_ratio,
+            rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
+            on_support: drivetrain.support.moves(),
+            ..Account::default()
+        };
+        Ledger::new(&self.structure.block, self.structure.geometry, &account)
     }
 
     /// By the loop for ideal devices.

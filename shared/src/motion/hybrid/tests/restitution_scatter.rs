@@ -3,7 +3,7 @@
 use std::vec::Vec;
 
 use super::{Shake, drivetrains, pair, structure, tight};
-use crate::ground::{AnySegment, Harmonics};
+use crate::ground::Harmonics;
 use crate::math;
 use crate::math::scalar::Real;
 use crate::method::fixed::{FixedStep, Scheme};
@@ -11,10 +11,9 @@ use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::{ModeIntegrator, Shaking};
 use crate::motion::observer::{Event, Observer};
 use crate::motion::state::{BlockState, Limits};
-use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement};
+use crate::structure::drivetrain::Drivetrain;
 use crate::structure::restitution::Restitution;
 use crate::structure::{RestitutionScatter, Structure};
 
@@ -109,11 +108,7 @@ fn off_it_is_not_there() {
 fn scattered_impacts_are_symmetric() {
     for (name, drivetrain) in drivetrains() {
         let shake = of(pair(Geometry::Full, 3.0, 5.0), SCATTER);
-        let mut mirrored = shake.clone();
-        if let (AnySegment::Sine(sine), _) = &mut mirrored.pieces[0] {
-            sine.terms[0].amplitude = -sine.terms[0].amplitude;
-        }
-        let (one, other) = (shake.machine(&drivetrain, &tight()), mirrored.machine(&drivetrain, &tight()));
+        let [one, other] = [&shake, &shake.mirrored()].map(|shake| shake.machine(&drivetrain, &tight()));
         assert_eq!(one.peak.to_bits(), other.peak.to_bits(), "{name}");
         assert_eq!((one.impacts, one.events), (other.impacts, other.events), "{name}");
     }
@@ -126,15 +121,7 @@ fn the_ledger_closes_with_scattered_impacts() {
         for (name, drivetrain) in drivetrains() {
             let shake = of(pair(Geometry::Full, 3.0, 5.0), RestitutionScatter { deviation: 0.2, seed: 9 });
             let shake = Shake { structure: Structure { restitution, ..shake.structure }, ..shake };
-            let ideal = drivetrain.engagement == Engagement::Ideal;
-            let account = Account {
-                clutching: if ideal { Clutching::Ideal } else { Clutching::Real },
-                mass_ratio: 0.5,
-                rack_mass_ratio: drivetrain.rack.guided_mass_ratio,
-                on_support: drivetrain.support.moves(),
-                ..Account::default()
-            };
-            let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
+            let mut ledger = shake.ledger(&drivetrain);
             shake.watched(&drivetrain, &tight(), &mut ledger);
             let entries = ledger.entries;
             let residual = entries.residual().abs() / entries.input.abs();

@@ -13,7 +13,6 @@ use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
-use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::Structure;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
@@ -191,10 +190,9 @@ fn a_second_uplift_feels_the_spinning_flywheels() {
     shake.pieces.push((sine(1.05 * threshold, core::f64::consts::PI), 0.55));
     shake.free_time = 0.0;
     let damped = Engagement::Elastic { stiffness: 3e3, damping: 8.0, backlash: 0.0, capacity_ratio: f64::INFINITY };
-    let account = Account { clutching: Clutching::Real, mass_ratio: 0.5, ..Account::default() };
     for engagement in [Engagement::Friction { capacity_ratio: 0.01 }, damped] {
         let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
-        let mut ledger = Ledger::new(&shake.structure.block, Geometry::Full, &account);
+        let mut ledger = shake.ledger(&drivetrain);
         let series = shake.watched(&drivetrain, &tight(), &mut ledger);
         let uplifts: Vec<f64> =
             series.events.iter().filter(|(event, _)| *event == Event::Uplift).map(|(_, time)| *time).collect();

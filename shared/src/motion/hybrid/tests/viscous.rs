@@ -13,7 +13,6 @@ use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{MonotoneInterval, Observer};
 use crate::motion::state::Limits;
-use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses};
@@ -105,9 +104,8 @@ fn an_inerter_with_slip_by_two_methods_and_its_ledger() {
             let flywheel = FlywheelLosses { viscous_rate: 0.05, dry_deceleration, ..FlywheelLosses::default() };
             let drivetrain = Drivetrain { flywheel, ..slip(12.0) };
             let shake = single(geometry);
-            let account = Account { clutching: Clutching::Real, mass_ratio: SIGMA, ..Account::default() };
             let mut watchers = (
-                Ledger::new(&shake.structure.block, geometry, &account),
+                shake.ledger(&drivetrain),
                 Loss { damping: 12.0 * SIGMA / shake.structure.block.inertia_ratio(), ..Loss::default() },
             );
             let series = shake.watched(&drivetrain, &tight(), &mut watchers);
