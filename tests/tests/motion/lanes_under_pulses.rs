@@ -1,5 +1,7 @@
 //! Blocks under pulses in lanes against the core, which follows one at a time.
 
+use std::fmt::Debug;
+
 use sprag_ensemble::machine::{Registers, run};
 use sprag_ensemble::plain::PlainBlock;
 use sprag_ensemble::pulsed::{PulseResult, PulsedBlock};
@@ -61,19 +63,23 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
         for device in DeviceKind::ALL {
             pulsed.extend(cases(geometry, device, 9).iter().map(PulsedBlock::from));
         }
-        let bits = |results: &[PulseResult]| -> Vec<(Outcome, u64, u64)> {
-            results.iter().map(|r| (r.outcome, r.peak_rotation.to_bits(), r.peak_acceleration.to_bits())).collect()
-        };
-        let results = bits(&run(&pulsed, Registers::Widest).unwrap());
-        assert_eq!(results, bits(&run(&pulsed, Registers::Baseline).unwrap()));
-        let alone: Vec<PulseResult> =
-            pulsed.iter().map(|block| run(std::slice::from_ref(block), Registers::Widest).unwrap()[0]).collect();
-        assert_eq!(results, bits(&alone));
-        pulsed.reverse();
-        let mut reversed = bits(&run(&pulsed, Registers::Widest).unwrap());
-        reversed.reverse();
-        assert_eq!(results, reversed);
+        have_the_same_bits(pulsed, |pulsed: &[PulsedBlock], registers| -> Vec<(Outcome, u64, u64)> {
+            let of = |r: &PulseResult| (r.outcome, r.peak_rotation.to_bits(), r.peak_acceleration.to_bits());
+            run(pulsed, registers).unwrap().iter().map(of).collect()
+        });
     }
+}
+
+/// Expects the same `bits` of what is `asked` in any registers, with and without neighbours, and in any order.
+pub fn have_the_same_bits<B, T: PartialEq + Debug>(mut asked: Vec<B>, bits: impl Fn(&[B], Registers) -> Vec<T>) {
+    let results = bits(&asked, Registers::Widest);
+    assert_eq!(results, bits(&asked, Registers::Baseline));
+    let alone: Vec<T> = asked.iter().flat_map(|block| bits(std::slice::from_ref(block), Registers::Widest)).collect();
+    assert_eq!(results, alone);
+    asked.reverse();
+    let mut reversed = bits(&asked, Registers::Widest);
+    reversed.reverse();
+    assert_eq!(results, reversed);
 }
 
 #[test]
