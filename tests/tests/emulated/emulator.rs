@@ -94,7 +94,7 @@ fn values(lines: &str) -> BTreeMap<&str, &str> {
 }
 
 /// Runs the case here and there; gives how it ends.
-fn compare(name: &str, case: &Case<'_>) -> Outcome {
+pub fn compare(name: &str, case: &Case<'_>) -> Outcome {
     let mut words = vec![0; 16_384];
     let count = case.encode(&mut words).unwrap();
     words.truncate(count);
