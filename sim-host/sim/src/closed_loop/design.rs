@@ -116,13 +116,18 @@ impl SensorDesign {
             velocity: (1e-9 + 6.0 * velocity) as f32,
             ticks: (STILL / period).clamp(4.0, 60_000.0) as u16,
         };
+        let deviation = |rotation: f64, velocity: f64, push: f64| Deviation {
+            rotation: rotation as f32,
+            velocity: velocity as f32,
+            push: push as f32,
+            ground: ground as f32,
+        };
         let estimator = match name {
             EstimatorName::ModelAided => {
                 let (transition, process) = two_states(wrong(model_error), period);
                 let (measurement, noise) = (SMatrix::identity(), SVector::<f64, 2>::new(of_encoder, of_gyroscope));
                 let (gains, covariance) = Tracking { transition, process, measurement, noise }.steady().ok_or(failed)?;
-                let (rotation, velocity) =
-                    (math::square_root(covariance[(0, 0)].max(0.0)), math::square_root(covariance[(1, 1)].max(0.0)));
+                let [rotation, velocity] = [0, 1].map(|i| math::square_root(covariance[(i, i)].max(0.0)));
                 // A block must also be found to stand when its encoder is lost: by what the gyroscope alone leaves of the velocity.
                 let one = SMatrix::<f64, 1, 1>::identity();
                 let (process, noise) = (one * process[(1, 1)], SVector::<f64, 1>::new(of_gyroscope));
@@ -133,12 +138,7 @@ impl SensorDesign {
                     blank: blank(delays[0], noisy(gyroscope)),
                     jump: jump(math::square_root(of_gyroscope)),
                     standing: standing(rotation, still),
-                    deviation: Deviation {
-                        rotation: rotation as f32,
-                        velocity: velocity as f32,
-                        push: (p * p * (ground + rotation)) as f32,
-                        ground: ground as f32,
-                    },
+                    deviation: deviation(rotation, velocity, p * p * (ground + rotation)),
                 })
             }
             EstimatorName::Kalman => {
@@ -160,19 +160,14 @@ impl SensorDesign {
                 (measurement[(0, 0)], measurement[(1, 1)], measurement[(2, 2)], measurement[(1, 3)]) = (1.0, 1.0, 1.0, 1.0);
                 let noise = SVector::<f64, 3>::new(of_encoder, of_gyroscope, of_forces);
                 let (gains, covariance) = Tracking { transition, process, measurement, noise }.steady().ok_or(failed)?;
-                let deviation = |i: usize| math::square_root(covariance[(i, i)].max(0.0));
+                let of = |i: usize| math::square_root(covariance[(i, i)].max(0.0));
                 let row = |i: usize| [gains[(i, 0)] as f32, gains[(i, 1)] as f32, gains[(i, 2)] as f32];
                 Estimator::Kalman(Kalman {
                     gains: [row(0), row(1), row(2), row(3)],
                     blank: blank(delays[0].max(delays[2]).max(block_delay), noisy(gyroscope) || noisy(block_accelerometer)),
                     jump: jump(math::square_root(of_gyroscope)),
-                    standing: standing(deviation(0), deviation(1)),
-                    deviation: Deviation {
-                        rotation: deviation(0) as f32,
-                        velocity: deviation(1) as f32,
-                        push: deviation(2) as f32,
-                        ground: ground as f32,
-                    },
+                    standing: standing(of(0), of(1)),
+                    deviation: deviation(of(0), of(1), of(2)),
                 })
             }
             EstimatorName::Complementary => {
@@ -180,8 +175,7 @@ impl SensorDesign {
                 let measurement = SMatrix::<f64, 1, 2>::new(1.0, 0.0);
                 let noise = SVector::<f64, 1>::new(of_encoder);
                 let (gains, covariance) = Tracking { transition, process, measurement, noise }.steady().ok_or(failed)?;
-                let (rotation, velocity) =
-                    (math::square_root(covariance[(0, 0)].max(0.0)), math::square_root(covariance[(1, 1)].max(0.0)));
+                let [rotation, velocity] = [0, 1].map(|i| math::square_root(covariance[(i, i)].max(0.0)));
                 let noisy = noisy(block_accelerometer) || noisy(ground_accelerometer);
                 let smoothing = if noisy { 1.0 - math::exp(-period / TRACKING) } else { 1.0 };
                 Estimator::Complementary(Complementary {
@@ -189,12 +183,7 @@ impl SensorDesign {
                     smoothing: smoothing as f32,
                     blank: blank(delays[2].max(block_delay), noisy),
                     standing: standing(rotation, velocity),
-                    deviation: Deviation {
-                        rotation: rotation as f32,
-                        velocity: velocity as f32,
-                        push: math::square_root(of_forces * smoothing / (2.0 - smoothing)) as f32,
-                        ground: ground as f32,
-                    },
+                    deviation: deviation(rotation, velocity, math::square_root(of_forces * smoothing / (2.0 - smoothing))),
                 })
             }
         };
