@@ -52,7 +52,7 @@ pub fn interval_figure(title: &FigureTitle, x_title: &str, intervals: &[Interval
     let words_px = widest(|interval| &interval.verdict) + LABEL_GAP_PX;
     let width_px = names_px + AXIS_PX + words_px;
     let mut body = String::new();
-    let top_px = write_heading(&mut body, title, &[], (MARGIN_PX, width_px), MARGIN_PX) + 4.0;
+    let top_px = write_heading(&mut body, title, &[], (MARGIN_PX, width_px)) + 4.0;
     let x = scale_around_zero(intervals.iter().flat_map(values), 1.0);
     let panel = Panel::new((MARGIN_PX + names_px, top_px), (AXIS_PX, ROW_PX * intervals.len() as f64), x, 0.0..1.0);
     let panel = Panel { y_ticks: false, ..panel };

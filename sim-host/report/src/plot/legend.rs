@@ -5,6 +5,7 @@ use super::formula::{formula, formula_width_px};
 use super::layer::{Text, escape, units, write_area, write_rect};
 use super::marker::{Marker, write_mark};
 use super::palette::{Colour, DeviceLook, GROUND, INK, Stroke, hex};
+use super::panel::MARGIN_PX;
 use super::text_width::text_width_px;
 use crate::lines::in_lines;
 
@@ -50,7 +51,7 @@ pub(super) enum Swatch {
     Framed(Colour),
 }
 
-/// Appends title and legend from `top_px` down, over the width from `left_px`; returns the lower edge (px).
+/// Appends title and legend at the top, over the width from `left_px`; returns the lower edge (px).
 ///
 /// What holds in all of the figure stands below the title, and every group of entries starts a row of its own.
 pub(super) fn write_heading(
@@ -58,9 +59,8 @@ pub(super) fn write_heading(
     title: &FigureTitle,
     groups: &[Vec<LegendEntry>],
     (left_px, width_px): (f64, f64),
-    top_px: f64,
 ) -> f64 {
-    let mut y = top_px;
+    let mut y = MARGIN_PX;
     for line in wrapped(&title.text, BOLD_WIDTH * width_px, TITLE_FONT_PX) {
         y += TITLE_FONT_PX + 4.0;
         let text = Text::new(&line, (left_px, y - 4.0), TITLE_FONT_PX);

@@ -47,7 +47,7 @@ impl PanelGrid {
         let (left_px, column_px) = (MARGIN_PX + LEFT_LABELS_PX, panel_px.0 + labels_px + gap_px.0);
         let area_px = (columns as f64 * column_px - gap_px.0).max(LEAST_WIDTH_PX);
         let mut svg = String::new();
-        let mut top_px = write_heading(&mut svg, title, keys, (left_px, area_px), MARGIN_PX) + 4.0;
+        let mut top_px = write_heading(&mut svg, title, keys, (left_px, area_px)) + 4.0;
         for (row, row_headings) in headings.chunks(columns).enumerate() {
             top_px += row_headings.iter().map(Heading::height_px).fold(0.0, f64::max);
             for (column, heading) in row_headings.iter().enumerate() {

@@ -101,7 +101,7 @@ pub fn sensitivity_figure(
     let labels_px = (variant_px + widest(&|row| text_width_px(&row.variant, FONT_PX)) + LABEL_GAP_PX).max(LABELS_PX);
     let figure_px = WIDTH_PX + labels_px - LABELS_PX;
     let (left_px, width_px) = (MARGIN_PX, figure_px - 2.0 * MARGIN_PX);
-    let legend_px = write_heading(&mut body, &title, &keys(devices, rows), (left_px, width_px), MARGIN_PX);
+    let legend_px = write_heading(&mut body, &title, &keys(devices, rows), (left_px, width_px));
 
     let row_px = |row: &SensitivityRow| row.lanes.len().max(1) as f64 * LANE_PX + ROW_GAP_PX;
     let limit = limit(lanes().flat_map(SensitivityLane::values));

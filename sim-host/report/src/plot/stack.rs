@@ -33,7 +33,7 @@ impl Stack {
     /// A stack without panels.
     pub(super) fn new(title: &FigureTitle, keys: &[Vec<LegendEntry>], x: Range<f64>) -> Self {
         let mut svg = String::new();
-        let top_px = write_heading(&mut svg, title, keys, (LEFT_PX, PANELS_PX), MARGIN_PX);
+        let top_px = write_heading(&mut svg, title, keys, (LEFT_PX, PANELS_PX));
         Self { svg, top_px, x }
     }
 
