@@ -129,7 +129,8 @@ impl Link {
         self.length == 0 && self.next.is_none()
     }
 
-    /// Moves what can be moved: a `report` (only while there [is room](Link::has_room)), the last answer, what has come. `ask` hands a request to the device. Whether anything moved.
+    /// Moves what can be moved: a `report` (only while there [is room](Link::has_room)), the last answer, what has come. `ask` hands a
+    /// request to the device. Whether anything moved.
     pub fn pump(
         &mut self,
         report: Option<TickReport>,

@@ -258,8 +258,8 @@ impl Course {
         Some(1e3 * (gone + back) as f64 * self.period)
     }
 
-    /// What has to hold whatever happens: never both clutches but for a block that stands, in the safe state wherever the law does not decide, only the ways that the
-    /// supervisor has between its states, and the settings as they were given.
+    /// What has to hold whatever happens: never both clutches but for a block that stands, in the safe state wherever the law does not
+    /// decide, only the ways that the supervisor has between its states, and the settings as they were given.
     pub fn check(&self) {
         let safe = self.settings.safe_command();
         // Of two that wait at rest one is open as soon as a command has reached the clutches.

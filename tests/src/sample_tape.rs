@@ -127,8 +127,8 @@ impl<'a> Player<'a> {
         self.tick_late(sample, 0.0)
     }
 
-    /// One tick, `lateness` s after its time: clutches that obey, and never both on a block that moves; the safe state wherever the law does not decide; only
-    /// the ways that the supervisor has between its states; and finite estimates, whatever the sensors say.
+    /// One tick, `lateness` s after its time: clutches that obey, and never both on a block that moves; the safe state wherever the law
+    /// does not decide; only the ways that the supervisor has between its states; and finite estimates, whatever the sensors say.
     pub fn tick_late(&mut self, sample: &Sample, lateness: f32) -> Decision {
         let engaged = self.clutches.pop_front().expect("never empty");
         let sample = Sample { engaged, ..*sample };

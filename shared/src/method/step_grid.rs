@@ -1,4 +1,5 @@
-//! Step grid of a fixed-step method: steps end at whole multiples of the step from the start of a ground segment, counted so that no rounding adds up.
+//! Step grid of a fixed-step method: steps end at whole multiples of the step from the start of a ground segment, counted so that no
+//! rounding adds up.
 
 use crate::math::scalar::Real;
 

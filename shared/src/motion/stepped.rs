@@ -1,5 +1,5 @@
-//! Steps of the classical Runge-Kutta method, of a block whose mode lasts through the step: an event inside one is located by taking the step again with a
-//! shorter length. What the ends of a step do not show is not seen.
+//! Steps of the classical Runge-Kutta method, of a block whose mode lasts through the step: an event inside one is located by taking the
+//! step again with a shorter length. What the ends of a step do not show is not seen.
 
 use crate::equation::motion::Motion;
 use crate::math::root::illinois;

@@ -1,8 +1,9 @@
 //! How fast a batch is, its text tables included, against the map's lanes and the core.
 //!
-//! `cargo bench --bench batch` prints, for the cells of the overturning map of each device and pulse (both models, a free time of 60/p), rows a second of one thread of
-//! `sprag batch` from file to file, of the same cells by the lanes of `sprag map` without text, and by the core one by one; for the cells as they stand in their
-//! files and with rows of all kinds mixed; and what two threads are worth. Ratios are what a shared machine leaves standing.
+//! `cargo bench --bench batch` prints, for the cells of the overturning map of each device and pulse (both models, a free time of 60/p),
+//! rows a second of one thread of `sprag batch` from file to file, of the same cells by the lanes of `sprag map` without text, and by the
+//! core one by one; for the cells as they stand in their files and with rows of all kinds mixed; and what two threads are worth. Ratios are
+//! what a shared machine leaves standing.
 
 use std::fmt::Write as _;
 use std::hint::black_box;

@@ -1,8 +1,8 @@
 //! How fast the core is at tight accuracy: cells of an overturning map on one core, and an integrated record.
 //!
-//! `cargo bench --bench cells` prints cells a second for the 64 x 64 grid of each device and pulse (α = 20°, σ = 0.5,
-//! ω_g/p 0.2-8, a 1-10, free time 60/p), and the time of 40 s of ground motion at 5 ms for each device, as minima of
-//! several passes, also as a ratio to that of the hybrid loop. The yardstick of the same run is the number of slender-block Runge-Kutta steps a second.
+//! `cargo bench --bench cells` prints cells a second for the 64 x 64 grid of each device and pulse (α = 20°, σ = 0.5, ω_g/p 0.2-8, a 1-10,
+//! free time 60/p), and the time of 40 s of ground motion at 5 ms for each device, as minima of several passes, also as a ratio to that of
+//! the hybrid loop. The yardstick of the same run is the number of slender-block Runge-Kutta steps a second.
 
 use std::hint::black_box;
 

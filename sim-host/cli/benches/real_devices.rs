@@ -1,9 +1,9 @@
 //! How fast studies are where devices are real: rigid clutches with coasting flywheels, losses and delays.
 //!
-//! `cargo bench --bench real_devices` takes 100 structures under 200 motions of 40 s at 5 ms ([`shakings`]; those that overturn end there), and
-//! one block under a grid of sine pulses, on one core. It prints runs a second in lanes, those of the core, which takes a part of them one by one, those of
-//! registers that every machine has, the shares of steps in which the core located an event, and that it took alone, and how far peaks are apart
-//! (θ/α, θ̈/(p²α)).
+//! `cargo bench --bench real_devices` takes 100 structures under 200 motions of 40 s at 5 ms ([`shakings`]; those that overturn end there),
+//! and one block under a grid of sine pulses, on one core. It prints runs a second in lanes, those of the core, which takes a part of them
+//! one by one, those of registers that every machine has, the shares of steps in which the core located an event, and that it took alone,
+//! and how far peaks are apart (θ/α, θ̈/(p²α)).
 
 use std::f64::consts::TAU;
 use std::time::Instant;

@@ -1,10 +1,11 @@
 //! SIMD ensemble of blocks: overturning maps, rocking spectra and fragilities at the speed of the machine's registers.
 //!
-//! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses;
-//! [`pulses`] keeps the lanes filled with blocks under pulses ([`pulsed`]), decides the outcome of each after its pulse by the first
-//! integral of free rocking, and hands the few that the lanes cannot settle to the core ([`alone`]); [`times`] adds impacts and times. [`records`] does the same for
-//! blocks under records ([`shaken`]), and [`after_record`] continues from there. [`rows`] are blocks and results as plain numbers. [`machine`] picks the widest registers of the machine
-//! that runs it: the bits of a result do not depend on them, nor on a block's neighbours.
+//! [`blocks`] steps several blocks side by side, in lanes, by the equations of motion and the series that every other part uses; [`pulses`]
+//! keeps the lanes filled with blocks under pulses ([`pulsed`]), decides the outcome of each after its pulse by the first integral of free
+//! rocking, and hands the few that the lanes cannot settle to the core ([`alone`]); [`times`] adds impacts and times. [`records`] does the
+//! same for blocks under records ([`shaken`]), and [`after_record`] continues from there. [`rows`] are blocks and results as plain numbers.
+//! [`machine`] picks the widest registers of the machine that runs it: the bits of a result do not depend on them, nor on a block's
+//! neighbours.
 //!
 //! A package of its own because it is built three times over, once for each kind of registers: what depends on it is not.
 

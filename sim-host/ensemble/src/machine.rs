@@ -150,8 +150,8 @@ pub fn run(pulsed: &[PulsedBlock], registers: Registers) -> Result<Vec<PulseResu
     Ok(results)
 }
 
-/// Outcome, impacts and times of each of `pulsed`, in their order, which move freely for `free_times` (1/p) after their pulses, one for each; `None` for those that
-/// the core is to follow.
+/// Outcome, impacts and times of each of `pulsed`, in their order, which move freely for `free_times` (1/p) after their pulses, one for
+/// each; `None` for those that the core is to follow.
 pub fn run_timed(pulsed: &[PulsedBlock], free_times: &[f64], registers: Registers) -> Vec<Option<(PulseResult, PulseTimes)>> {
     let mut results = vec![PulseResult::NO_ROCKING; pulsed.len()];
     let mut times = vec![None; pulsed.len()];

@@ -119,8 +119,8 @@ impl Pulses {
     }
 }
 
-/// Runs all `pulsed` blocks, which have the model `M` and the clutch `C`, into `results`, one each. Where they are `timed`, what the lanes cannot settle is left
-/// there.
+/// Runs all `pulsed` blocks, which have the model `M` and the clutch `C`, into `results`, one each. Where they are `timed`, what the lanes
+/// cannot settle is left there.
 ///
 /// # Errors
 /// The first [`CaseError`], with the number of its block; parameters are checked by the core when it is asked to follow a block.

@@ -7,7 +7,8 @@ use sprag_shared::structure::block::Block;
 use crate::plain::PlainBlock;
 use sprag_shared::observers::outcome::Outcome;
 
-/// Distance to the threshold below which the core takes a ground acceleration that has jumped above it: there rounding decides whether the block uplifts.
+/// Distance to the threshold below which the core takes a ground acceleration that has jumped above it: there rounding decides whether the
+/// block uplifts.
 pub(crate) const DOUBTFUL_UPLIFT: f64 = 1e-9;
 
 /// Ground acceleration of a record: straight lines between samples.

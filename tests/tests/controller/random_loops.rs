@@ -1,5 +1,5 @@
-//! Closed loops over random structures, devices and motions (those of the second program), with any law, estimator and sensors at any rate: all of them
-//! come to an end.
+//! Closed loops over random structures, devices and motions (those of the second program), with any law, estimator and sensors at any rate:
+//! all of them come to an end.
 
 use rayon::prelude::*;
 use sprag_reference::generate::scene;

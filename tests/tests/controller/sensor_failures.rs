@@ -151,8 +151,8 @@ fn sensors_that_fail_by_turns_keep_the_safe_state() {
     }
 }
 
-/// A sensor that says nothing new for a while, and then continues. Without it a block that has come to rest is found to stand all the same: the clutches
-/// move hardly more often than with it.
+/// A sensor that says nothing new for a while, and then continues. Without it a block that has come to rest is found to stand all the same:
+/// the clutches move hardly more often than with it.
 #[test]
 fn a_sensor_that_falls_silent_is_stale_and_comes_back() {
     for tape in REAL.iter() {

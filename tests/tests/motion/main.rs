@@ -1,5 +1,5 @@
-//! The motion of a block and its device: closed forms, reference cells, recorded motions, hard cases, lanes, the statements of the paper, and the second
-//! program (`tests/reference`).
+//! The motion of a block and its device: closed forms, reference cells, recorded motions, hard cases, lanes, the statements of the paper,
+//! and the second program (`tests/reference`).
 
 mod balanced_starts;
 mod batches_in_lanes;

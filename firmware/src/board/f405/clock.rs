@@ -25,8 +25,8 @@ const PATIENCE: u32 = 200_000;
 pub const SLOW: Channel =
     Channel { source: (0x50, 1 << 6), mode: (0x1C, 0x0D00), on: 1 << 12, edge: 0x40, came: 1 << 4, missed: 1 << 12 };
 
-/// Starts clocks and counter. Says whether the crystal runs, and what its rate is to be held against; where it does not run, everything runs within the ±1 % (25 °C) of the internal
-/// oscillator, which is no measure of time but a controller that works.
+/// Starts clocks and counter. Says whether the crystal runs, and what its rate is to be held against; where it does not run, everything
+/// runs within the ±1 % (25 °C) of the internal oscillator, which is no measure of time but a controller that works.
 pub fn start(rcc: pac::RCC, counter: &pac::TIM5) -> (Rcc, bool, ClockCheck) {
     // The library waits for the crystal for ever, so it is only asked to once the crystal has been seen to run.
     rcc.cr().modify(|_, w| w.hseon().set_bit());

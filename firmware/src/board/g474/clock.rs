@@ -22,8 +22,8 @@ const MULTIPLIER: u8 = (2 * HZ / 4_000_000) as u8;
 /// Channel 1 of TIM5, whose input TIM5_TISEL makes the slow oscillator (RM0440, TIM2 to TIM5).
 pub const SLOW: Channel = Channel { source: (0x5C, 1), mode: (0x18, 0x000D), on: 1, edge: 0x34, came: 1 << 1, missed: 1 << 9 };
 
-/// Starts clocks and counter. Says whether the crystal runs, and what its rate is to be held against; where it does not run, everything runs within the ±1 % (25 °C) of the internal
-/// oscillator, which is no measure of time but a controller that works.
+/// Starts clocks and counter. Says whether the crystal runs, and what its rate is to be held against; where it does not run, everything
+/// runs within the ±1 % (25 °C) of the internal oscillator, which is no measure of time but a controller that works.
 pub fn start(chip: &pac::Peripherals) -> (bool, ClockCheck) {
     let rcc = &chip.RCC;
     rcc.cr().modify(|_, w| w.hseon().set_bit());

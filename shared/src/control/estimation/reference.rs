@@ -141,8 +141,8 @@ impl Reference {
 }
 
 impl EstimatorState {
-    /// One tick of a block that rocks while only impacts show where θ = 0 is; `noise` is what no noise makes of two readings of θ̇ (rad/s). Whether there was an impact:
-    /// then the state is that after it.
+    /// One tick of a block that rocks while only impacts show where θ = 0 is; `noise` is what no noise makes of two readings of θ̇ (rad/s).
+    /// Whether there was an impact: then the state is that after it.
     #[inline(never)]
     pub(super) fn look_for_impact(&mut self, model: &Model, instruments: &Instruments, seen: &Measured, noise: f32) -> bool {
         let reference = &mut self.reference;

@@ -3,7 +3,8 @@
 //! All fit one signature, [`Law`], so that a law of one's own can be put in the place of these: it sees a [`Situation`] and says what it
 //! wants. Which of the two flywheels that is, and when a clutch may move, is decided after it ([`turn_taking`], [`minimum_dwell`]).
 //!
-//! [`look_ahead`]: a law that runs the equation of motion ahead; [`costate`]: a linear costate of optimal control; [`any_law`]: a law chosen at run time; [`signs`]: hysteresis.
+//! [`look_ahead`]: a law that runs the equation of motion ahead; [`costate`]: a linear costate of optimal control; [`any_law`]: a law
+//! chosen at run time; [`signs`]: hysteresis.
 //!
 //! A new law goes into a file of its own here and into [`any_law`]; to be chosen by settings, into `settings::{table, parts}`; by
 //! a scene, into the `LawName` of the host.

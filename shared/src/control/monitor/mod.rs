@@ -1,6 +1,7 @@
 //! Sensors that cannot be believed: which of them, and why.
 //!
-//! [`fault`]: the codes; [`actuator`]: clutches that do not follow; [`coil`]: what their currents say; `scale`: whether rest is 1 g. The room imports `structure`, `control::sensing` and `control::ticks`.
+//! [`fault`]: the codes; [`actuator`]: clutches that do not follow; [`coil`]: what their currents say; `scale`: whether rest is 1 g. The
+//! room imports `structure`, `control::sensing` and `control::ticks`.
 
 pub mod actuator;
 mod agreement;

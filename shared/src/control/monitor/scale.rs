@@ -41,8 +41,8 @@ impl Scale {
         tick.is_multiple_of(EVERY)
     }
 
-    /// A look at accelerometers that are at rest or not, where `gravity` is this, m/s²: which of them, in the order of [`Place::ALL`](super::fault::Place::ALL), has
-    /// just been found to be wrong.
+    /// A look at accelerometers that are at rest or not, where `gravity` is this, m/s²: which of them, in the order of
+    /// [`Place::ALL`](super::fault::Place::ALL), has just been found to be wrong.
     #[inline(never)]
     pub fn look(&mut self, sample: &Sample, at_rest: bool, gravity: f32) -> [bool; 2] {
         if !at_rest {

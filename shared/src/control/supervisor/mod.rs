@@ -297,7 +297,8 @@ impl Supervisor {
         Verdict { phase: state.phase, fault, command, biases }
     }
 
-    /// What is to be sent: in a self-test the safe state until nothing moves. Never both to a block that moves, where that is not allowed: what was sent before then stays.
+    /// What is to be sent: in a self-test the safe state until nothing moves. Never both to a block that moves, where that is not allowed:
+    /// what was sent before then stays.
     fn command(&self, state: &SupervisorState, input: &SupervisorInput<'_>) -> [bool; 2] {
         match state.phase {
             Phase::Armed if state.proof.goes_on() => state.proof.command(input.wish),

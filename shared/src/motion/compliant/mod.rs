@@ -1,12 +1,12 @@
 //! Event-driven integration of a block on a compliant foundation: a spring and a dashpot under each toe, which push and never pull.
 //!
-//! The block turns by θ and its centre of mass rises by y; the toe about which it turns, or would turn, does not slide. Each toe's foot presses on the ground
-//! while its spring is compressed and its force is positive. There are no impacts: a toe that comes down meets its dashpot. For stiff feet the
-//! motion is that of the rigid block on rigid ground. `balance` has the equations, `stretch` a step: the Runge-Kutta method, taken again with a shorter length where
-//! an event lies inside. What the ends of a step do not show is not seen.
+//! The block turns by θ and its centre of mass rises by y; the toe about which it turns, or would turn, does not slide. Each toe's foot
+//! presses on the ground while its spring is compressed and its force is positive. There are no impacts: a toe that comes down meets its
+//! dashpot. For stiff feet the motion is that of the rigid block on rigid ground. `balance` has the equations, `stretch` a step: the
+//! Runge-Kutta method, taken again with a shorter length where an event lies inside. What the ends of a step do not show is not seen.
 //!
-//! Source: the two-spring foundation of Psycharis and Jennings (1983), with the full geometry; see [docs/modes.md](../../../../docs/modes.md). The room imports what is directly in
-//! `motion`, and every room below `motion`.
+//! Source: the two-spring foundation of Psycharis and Jennings (1983), with the full geometry; see
+//! [docs/modes.md](../../../../docs/modes.md). The room imports what is directly in `motion`, and every room below `motion`.
 
 mod balance;
 pub mod resolve;
@@ -90,8 +90,8 @@ impl<S: Real> CompliantSystem<S> {
         self.released_at(S::ZERO, S::ZERO, [S::ZERO; 2])
     }
 
-    /// The block let go at θ (rad) with θ̇ (rad/s), its feet as far compressed as its weight asks, on ground that accelerates by `ground` (horizontal and
-    /// vertical, in g).
+    /// The block let go at θ (rad) with θ̇ (rad/s), its feet as far compressed as its weight asks, on ground that accelerates by `ground`
+    /// (horizontal and vertical, in g).
     pub fn released_at(&self, rotation: S, velocity: S, ground: [S; 2]) -> CompliantState<S> {
         let side = Sign::of(rotation, Sign::of(velocity, Sign::Positive));
         let ground = [ground[0], S::ONE + ground[1]];
@@ -116,8 +116,9 @@ impl<S: Real> CompliantSystem<S> {
         state
     }
 
-    /// Follows the block in steps of `step` (s) over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and event: uplift where
-    /// a foot leaves the ground that both pressed on, impact where both press again. A state that has overturned stays as it is.
+    /// Follows the block in steps of `step` (s) over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
+    /// event: uplift where a foot leaves the ground that both pressed on, impact where both press again. A state that has overturned stays
+    /// as it is.
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.

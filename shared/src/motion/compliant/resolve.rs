@@ -14,7 +14,8 @@ use crate::structure::{Base, Structure};
 const LONGEST_STEP: f64 = 0.1;
 
 impl Structure {
-    /// The equations of the structure with its added mass on its compliant base, and the longest step (s) that follows its feet. Impacts have no part in them: the restitution is not looked at.
+    /// The equations of the structure with its added mass on its compliant base, and the longest step (s) that follows its feet. Impacts
+    /// have no part in them: the restitution is not looked at.
     ///
     /// # Errors
     /// [`ParameterError`] names the first parameter outside its range, or what a block on feet cannot be followed with.

@@ -61,8 +61,8 @@ pub struct HybridSystem<S> {
     pub slenderness: S,
     /// pα, rad/s: the size of an angular velocity that matters.
     pub speed: S,
-    /// θ̇ (rad/s) below which an impact may end in rest. Below a rounding of [`HybridSystem::speed`] plates that stick and slip would give back what impacts
-    /// take.
+    /// θ̇ (rad/s) below which an impact may end in rest. Below a rounding of [`HybridSystem::speed`] plates that stick and slip would give
+    /// back what impacts take.
     pub rest_speed: S,
     /// θ̇ (rad/s) below which an impact does not count.
     pub counted_speed: S,

@@ -14,7 +14,8 @@ use crate::math::sign::Sign;
 /// Roundings within which a threshold counts as zero.
 const ROUNDINGS: f64 = 64.0;
 
-/// a ü_g/g + b (1 + v̈_g/g) + c + d t + e (ü_s − ü_g)/g + f exp(−r t): the moment that moves the block to one side, over its inertia about the toe; 1/s².
+/// a ü_g/g + b (1 + v̈_g/g) + c + d t + e (ü_s − ü_g)/g + f exp(−r t): the moment that moves the block to one side, over its inertia about
+/// the toe; 1/s².
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Threshold<S> {
     horizontal: S,

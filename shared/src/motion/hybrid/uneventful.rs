@@ -32,8 +32,9 @@ impl<S: Real> HybridSystem<S> {
         (plain && firm).then(|| self.watching_law(state))
     }
 
-    /// The block has moved for `time` (s) without an event in its [`HybridSystem::mode`] to θ (`rotation`, rad) and θ̇ (`velocity`, rad/s), under
-    /// ground that accelerates by `ground` (in g, horizontally and vertically) now; its support moves with that. Open flywheels have coasted; those whose plates slip have the speeds `spins` (1/s).
+    /// The block has moved for `time` (s) without an event in its [`HybridSystem::mode`] to θ (`rotation`, rad) and θ̇ (`velocity`, rad/s),
+    /// under ground that accelerates by `ground` (in g, horizontally and vertically) now; its support moves with that. Open flywheels have
+    /// coasted; those whose plates slip have the speeds `spins` (1/s).
     pub fn has_moved(&self, state: &mut HybridState<S>, (rotation, velocity): (S, S), spins: [S; 2], time: S, ground: [S; 2]) {
         (state.motion.rotation, state.motion.velocity) = (rotation, velocity);
         (state.fresh, state.free, state.ground) = ([false; GUARDS], false, [ground[0], ground[1], S::ZERO]);
@@ -65,8 +66,9 @@ impl<S: Real> HybridSystem<S> {
 
     /// Bound of the push on the block, over its weight at its lightest, that decides where it can no longer return
     /// ([`crate::structure::block::Geometry::point_of_no_return`]), under ground accelerations within ±`bound` (in g), accelerations of a
-    /// support of its own motion relative to the ground within ±`support` (in g), and a 1 + v̈_g/g of at least `lightest`: a light block falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed
-    /// too, and friction of rack, bearings and plates may hold the block beyond. A spring without a capacity counts for nothing.
+    /// support of its own motion relative to the ground within ±`support` (in g), and a 1 + v̈_g/g of at least `lightest`: a light block
+    /// falls under a weaker push, guided racks and flywheels on a support of its own motion are pushed too, and friction of rack, bearings
+    /// and plates may hold the block beyond. A spring without a capacity counts for nothing.
     pub fn push_bound(&self, bound: f64, support: f64, lightest: f64) -> f64 {
         let parameters = &self.transmission.parameters;
         let p2 = self.body.frequency_squared().to_f64();
@@ -96,8 +98,8 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
-    /// Ends a motion at `time` (s), on ground that has come to rest ([`crate::motion::state::BlockState::end`]): outward from where friction holds the block no more.
-    /// Springs may bring a full block back from anywhere.
+    /// Ends a motion at `time` (s), on ground that has come to rest ([`crate::motion::state::BlockState::end`]): outward from where
+    /// friction holds the block no more. Springs may bring a full block back from anywhere.
     pub fn end(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         if self.geometry() == Geometry::Slender || !self.transmission.traits().springs {
             let bound = self.push_bound(0.0, 0.0, 1.0);

@@ -1,7 +1,7 @@
 //! Times of free rocking by the energy integral, without integration: its impacts, and when it ends.
 //!
-//! The legs of the motion are those of [`super::free_motion`]; [`super::leg_time`] has how long each lasts. When the swings are small enough, the rest of them is
-//! summed ([`super::free_decay`]), as the event loop does. What rounding would decide is left to that loop.
+//! The legs of the motion are those of [`super::free_motion`]; [`super::leg_time`] has how long each lasts. When the swings are small
+//! enough, the rest of them is summed ([`super::free_decay`]), as the event loop does. What rounding would decide is left to that loop.
 
 use super::free_decay::Decay;
 use super::free_motion::FreeMotion;
@@ -197,7 +197,8 @@ mod tests {
         summed
     }
 
-    /// From rest at θ = q − α it falls back in √(1 + k) acosh(α/q); a swing from the speed v α lasts (1 + √(1 + k)) atanh v, and comes back with v/√(1 + k).
+    /// From rest at θ = q − α it falls back in √(1 + k) acosh(α/q); a swing from the speed v α lasts (1 + √(1 + k)) atanh v, and comes back
+    /// with v/√(1 + k).
     #[test]
     fn a_slender_pair_has_its_closed_form() {
         let (q, restitution, root) = (0.3 * ALPHA, 0.9, square_root(1.0 + COUPLING));

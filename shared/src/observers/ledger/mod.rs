@@ -8,8 +8,9 @@
 //! input = −p² ∫ [ (ü_g/g)(cos δ + (1 + (1 − n)(f − 1)) m_rack/m ℓ) + (v̈_g/g) sin δ ] θ̇ dt − ∫ F z dt,  kinetic = ½θ̇²,
 //! potential = p² (cos δ − cos α);
 //!
-//! The support moves by f times the ground's acceleration, and a guided rack behind the pulley n rides on it. F is the force of the flywheels on
-//! the rack, and z the speed of a support that moves otherwise than the ground ([`crate::drivetrain::on_support`]), against which they turn. Energies are relative to the ground (Uang and Bertero 1990).
+//! The support moves by f times the ground's acceleration, and a guided rack behind the pulley n rides on it. F is the force of the
+//! flywheels on the rack, and z the speed of a support that moves otherwise than the ground ([`crate::drivetrain::on_support`]), against
+//! which they turn. Energies are relative to the ground (Uang and Bertero 1990).
 //!
 //! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every interval by Gauss-Legendre
 //! quadrature, with an error far below rounding on a series; what jumps at an event goes to what caused it. No entry is

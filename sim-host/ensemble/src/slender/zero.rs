@@ -94,8 +94,8 @@ const NEAR: f64 = 5e-3;
 /// How small Newton's last correction must be, relative to the time from the start: the error is its square.
 const CONVERGED: f64 = 1e-8;
 
-/// Where on (0, 1] that quartic vanishes, about, which has the value, slope and curvature of `start` at 0 and the value and slope of `end` at 1. There it is
-/// below 0; up to its only zero, but not at 0 perhaps, it is above.
+/// Where on (0, 1] that quartic vanishes, about, which has the value, slope and curvature of `start` at 0 and the value and slope of `end`
+/// at 1. There it is below 0; up to its only zero, but not at 0 perhaps, it is above.
 #[inline(always)]
 fn guess([value, slope, curvature]: [Number; 3], [value_end, slope_end]: [Number; 2]) -> Number {
     let (nothing, one) = (number(0.0), number(1.0));

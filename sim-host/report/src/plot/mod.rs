@@ -1,4 +1,5 @@
-//! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs, trade-offs, comparisons, charts of lines.
+//! Figures as SVG text: responses, energies, sensitivities, closed loops, recordings of devices, maps of outcomes, clouds of runs,
+//! trade-offs, comparisons, charts of lines.
 //!
 //! Figures are SVG, written element by element (`layer`). [`png()`] makes dots of it.
 

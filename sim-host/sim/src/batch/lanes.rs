@@ -10,8 +10,8 @@ use sprag_shared::structure::block::Geometry;
 
 use super::case::{Case, CaseResult, TIGHT};
 
-/// Results of `cases` in any order, one each: to rounding in the lanes, and by the power series with this `tolerance` where the lanes cannot tell, all of them
-/// for one below [`TIGHT`]. No result depends on the other cases.
+/// Results of `cases` in any order, one each: to rounding in the lanes, and by the power series with this `tolerance` where the lanes
+/// cannot tell, all of them for one below [`TIGHT`]. No result depends on the other cases.
 ///
 /// Neighbours that share slenderness, mass ratio and restitution are quicker.
 pub fn results(cases: &[Case], tolerance: f64) -> Vec<Result<CaseResult, CaseError>> {
@@ -22,8 +22,8 @@ pub fn results(cases: &[Case], tolerance: f64) -> Vec<Result<CaseResult, CaseErr
 
 /// Results of `cases` to rounding; `None` for those that the core is to follow.
 ///
-/// Those are what the lanes do not take (parameters at the ends of their ranges), motions that come so near the tip, the uplift threshold or the end of their free
-/// time that rounding decides, and free times that end before the largest rotation.
+/// Those are what the lanes do not take (parameters at the ends of their ranges), motions that come so near the tip, the uplift threshold
+/// or the end of their free time that rounding decides, and free times that end before the largest rotation.
 pub fn in_lanes(cases: &[Case]) -> Vec<Option<CaseResult>> {
     // Blocks of one kind go together, and those of one slenderness, coupling and restitution share their series.
     let mut order: Vec<usize> = (0..cases.len()).filter(|&index| cases[index].rest_speed == REST_SPEED).collect();

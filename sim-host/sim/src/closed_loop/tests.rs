@@ -144,8 +144,8 @@ fn peak_of_engaged(rate_hz: u32, device: &str, ground: &str) -> f64 {
     looped.extremes.peaks.rotation / desk.scene.block.slenderness()
 }
 
-/// Flywheels that swing on the springs of engaged clutches push a block that stands: it does not go back and forth between standing and rocking at one
-/// instant.
+/// Flywheels that swing on the springs of engaged clutches push a block that stands: it does not go back and forth between standing and
+/// rocking at one instant.
 #[test]
 fn elastic_clutches_may_stay_engaged_while_a_block_stands() {
     for amplitude in [1.1, 1.2, 1.6] {

@@ -200,8 +200,8 @@ impl<'a> Course<'a> {
         Ok(())
     }
 
-    /// Gives each segment of the ground, and quiet ground for the free time, to `advance` with its start and duration (s), until that says that nothing
-    /// follows any more or `continues` no longer holds.
+    /// Gives each segment of the ground, and quiet ground for the free time, to `advance` with its start and duration (s), until that says
+    /// that nothing follows any more or `continues` no longer holds.
     ///
     /// # Errors
     /// Those of `advance`, whose times are local to the segment.

@@ -61,8 +61,9 @@ fn the_rest_threshold_does_not_show_beside_clutches() {
     }
 }
 
-/// A block that sets out so slowly that its rates are constant is at rest after v (1/a₁ + 1/√(a₁a₂))/(1 − η √(a₂/a₁)), with a₁ as it rises and a₂ as it
-/// falls. The bearings of the last inerter slow its flywheel down faster than the weight does the block, so that the rack drives it outward too.
+/// A block that sets out so slowly that its rates are constant is at rest after v (1/a₁ + 1/√(a₁a₂))/(1 − η √(a₂/a₁)), with a₁ as it rises
+/// and a₂ as it falls. The bearings of the last inerter slow its flywheel down faster than the weight does the block, so that the rack
+/// drives it outward too.
 #[test]
 fn the_last_bounces_end_in_closed_form() {
     let alpha = SLENDERNESS_DEG.to_radians();

@@ -7,7 +7,8 @@ use super::late::Late;
 use super::study::{Findings, PartsList, Problem};
 use super::table::figures;
 
-/// The picture: the largest rotation over the motions under which the block stands without a delay, and how many overturn it; none where no clutch takes commands.
+/// The picture: the largest rotation over the motions under which the block stands without a delay, and how many overturn it; none where no
+/// clutch takes commands.
 ///
 /// # Errors
 /// The errors of [`chart_figure`].

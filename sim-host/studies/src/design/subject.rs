@@ -75,8 +75,8 @@ impl Subject {
         self.with(self.scene.with_device(device)?)
     }
 
-    /// The same with plates that slip above `capacity_n` (N at the rack) in the place of an ideal or rigid clutch, [with brakes](is_tried_with_brakes)
-    /// in that of an ideal one. None where the scene has a clutch of its own.
+    /// The same with plates that slip above `capacity_n` (N at the rack) in the place of an ideal or rigid clutch, [with
+    /// brakes](is_tried_with_brakes) in that of an ideal one. None where the scene has a clutch of its own.
     ///
     /// # Errors
     /// [`SceneError`] where the scene does not take it.

@@ -8,8 +8,9 @@ use sprag_sim::csv_field::quoted;
 
 use sprag_sim::map::grid::Grid;
 
-/// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when overturned,
-/// the latter of closed loops too; numbers read back to the same f64. Devices one after another, of each cells row by row from the lowest, each from the left.
+/// `device`, the keys of the axes, `outcome`, `peak_rotation` and `peak_acceleration`: peaks max|θ|/α and max|θ̈|/(p²α), empty when
+/// overturned, the latter of closed loops too; numbers read back to the same f64. Devices one after another, of each cells row by row from
+/// the lowest, each from the left.
 pub fn columns(grid: &Grid) -> Vec<Column> {
     let mut columns = vec![Column::text("device"), Column::number(&grid.map.x.key)];
     columns.extend(grid.map.y.iter().map(|y| Column::number(&y.key)));

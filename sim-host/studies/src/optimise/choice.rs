@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use super::design::Design;
 use super::limit::{Limits, Quantity};
 
-/// `one` before `other` if it overturns under fewer motions, in the mean over the specimens or in their quantile; if equally many, by the smaller median rotation, then by the smaller
-/// force, and else by the order of laws, mounts and mass ratios.
+/// `one` before `other` if it overturns under fewer motions, in the mean over the specimens or in their quantile; if equally many, by the
+/// smaller median rotation, then by the smaller force, and else by the order of laws, mounts and mass ratios.
 ///
 /// With as many motions that overturn the block, as many of the rotations are infinite for both.
 pub fn preference(one: &Design, other: &Design) -> Ordering {

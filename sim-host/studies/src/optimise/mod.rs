@@ -1,7 +1,8 @@
 //! The device that overturns a structure least, under limits on its force and stroke.
 //!
 //! - [`table`], [`law`], [`setting`], [`mount`], [`curve`]: which devices there are to choose from; [`limit`]: what they may ask for.
-//! - [`motion`], [`pulse`], [`specimen`], [`subject`], [`response`], [`problem`]: what each does under each motion, and what scatters; [`objective`]: what is made small.
+//! - [`motion`], [`pulse`], [`specimen`], [`subject`], [`response`], [`problem`]: what each does under each motion, and what scatters;
+//!   [`objective`]: what is made small.
 //! - [`design`], [`search`]: devices and what they come to, on a grid of mass ratios and where it matters in between; [`tried`]: those of an
 //!   interrupted search.
 //! - [`choice`], [`findings`]: which is best, and at what price; [`ranking`]: how sure that is; [`delay`]: how late its clutches may be.

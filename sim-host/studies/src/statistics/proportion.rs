@@ -4,8 +4,9 @@ use sprag_shared::math::square_root;
 
 use super::{Band, Level};
 
-/// The band of the probability of an event that happened `times` in `of` independent trials, in the mean where trials were repeated (Wilson 1927, Journal of the American
-/// Statistical Association 22(158), Eq. 3): all π that lie within z standard errors √(π(1 − π)/n) of the share k/n, which are
+/// The band of the probability of an event that happened `times` in `of` independent trials, in the mean where trials were repeated (Wilson
+/// 1927, Journal of the American Statistical Association 22(158), Eq. 3): all π that lie within z standard errors √(π(1 − π)/n) of the
+/// share k/n, which are
 ///
 /// \[k + z²/2 ± z √(k (n − k)/n + z²/4)\]/(n + z²)
 ///

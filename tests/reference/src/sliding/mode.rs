@@ -75,8 +75,8 @@ impl Mode {
     }
 }
 
-/// The mode in which the body goes on, of those that its corner on the ground and its slip leave, but for the one that is `barred`: the first that does
-/// not contradict itself, the simplest first, or but for rounding the one that does least. `None` where all do.
+/// The mode in which the body goes on, of those that its corner on the ground and its slip leave, but for the one that is `barred`: the
+/// first that does not contradict itself, the simplest first, or but for rounding the one that does least. `None` where all do.
 pub fn find(
     body: &Body,
     state: &State,

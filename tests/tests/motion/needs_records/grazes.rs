@@ -16,7 +16,8 @@ fn overrunning(record: &str, mass_ratio: f64) -> DeviceRun {
     runs(&text).remove(0)
 }
 
-/// With this mass ratio the rack of a falling block grows as fast as its flywheel and no faster; its neighbours pass by, and the motions are the same.
+/// With this mass ratio the rack of a falling block grows as fast as its flywheel and no faster; its neighbours pass by, and the motions
+/// are the same.
 #[test]
 #[ignore = "needs the recorded motions beside the repository: run by cargo xtask test"]
 fn a_flywheel_that_the_rack_just_reaches_ends_no_run() {

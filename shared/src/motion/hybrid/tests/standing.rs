@@ -224,8 +224,9 @@ fn an_overrunning_clutch_that_has_just_gripped_does_not_push() {
     assert_eq!(force, 0.0);
 }
 
-/// A tilted block that is about to turn outward is held by the flywheel that works outward. When weight and ground turn it inward that clutch lets go:
-/// the block goes at once where the other flywheel spins ahead of the rack, and where it stands when its bearings are overcome too.
+/// A tilted block that is about to turn outward is held by the flywheel that works outward. When weight and ground turn it inward that
+/// clutch lets go: the block goes at once where the other flywheel spins ahead of the rack, and where it stands when its bearings are
+/// overcome too.
 #[test]
 fn an_overrunning_clutch_holds_a_tilted_block_one_way() {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
@@ -249,8 +250,8 @@ fn an_overrunning_clutch_holds_a_tilted_block_one_way() {
     }
 }
 
-/// A controller engages an elastic clutch on a flywheel that spins while the block stands: it swings on its spring, w = w₀ cos Ωt with Ω² = K/k, and lifts
-/// the block as the spring's moment passes that of the weight, sin Ωt = p² sin α Ω/(ℓKw₀).
+/// A controller engages an elastic clutch on a flywheel that spins while the block stands: it swings on its spring, w = w₀ cos Ωt with Ω² =
+/// K/k, and lifts the block as the spring's moment passes that of the weight, sin Ωt = p² sin α Ω/(ℓKw₀).
 #[test]
 fn a_flywheel_swings_on_its_spring_under_a_standing_block() {
     let structure = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);

@@ -71,9 +71,9 @@ fn it_moves_the_uplift_threshold() {
     }
 }
 
-/// A slender block falls back from θ₀ under a constant push u, its support faster, at c = λ(f − 1) p² u: the rack moves outward on it, which the first
-/// flywheel resists until both accelerate alike, where α + u − θ = −λ(f − 1) u. Until then θ̇² has an energy, under the push
-/// (1 − σ (f − 1)) u.
+/// A slender block falls back from θ₀ under a constant push u, its support faster, at c = λ(f − 1) p² u: the rack moves outward on it,
+/// which the first flywheel resists until both accelerate alike, where α + u − θ = −λ(f − 1) u. Until then θ̇² has an energy, under the
+/// push (1 − σ (f − 1)) u.
 #[test]
 fn a_pair_resists_the_motion_of_its_terminals() {
     #[derive(Default)]

@@ -200,9 +200,9 @@ fn a_pair_never_drives() {
     }
 }
 
-/// The clutches of a standing block follow Eq. 10 at the terminals: on a support that accelerates by A sin ωt, whose speed is (A/ω)(1 − cos ωt),
-/// one flywheel works from each cycle's start to its middle; by A cos ωt they take turns, from each zero of the speed to the next of the acceleration.
-/// F = σ |ü_s| there.
+/// The clutches of a standing block follow Eq. 10 at the terminals: on a support that accelerates by A sin ωt, whose speed is (A/ω)(1 − cos
+/// ωt), one flywheel works from each cycle's start to its middle; by A cos ωt they take turns, from each zero of the speed to the next of
+/// the acceleration. F = σ |ü_s| there.
 #[test]
 fn the_clutches_of_a_standing_block_follow_the_support() {
     #[derive(Default)]

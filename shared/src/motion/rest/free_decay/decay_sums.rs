@@ -1,11 +1,12 @@
 //! All swings that are left of a clutched pair's free decay as functions of the speed v that the next one starts with.
 //!
-//! With E = ½v² a swing lasts T(v) = v Σ t_j E^j, and the next one starts with ρ v √S(E), S = Σ s_j E^j with s_0 = 1. What is left lasts D(v) = v Σ d_j E^j, where
-//! D(v) = T(v) + D(ρ v √S), so
+//! With E = ½v² a swing lasts T(v) = v Σ t_j E^j, and the next one starts with ρ v √S(E), S = Σ s_j E^j with s_0 = 1. What is left lasts
+//! D(v) = v Σ d_j E^j, where D(v) = T(v) + D(ρ v √S), so
 //!
 //! d_n (1 − ρ^{2n+1}) = t_n + Σ_{j<n} d_j ρ^{2j+1} [E^{n−j}] S^{j+½}.
 //!
-//! The same with ρ ψ(v) = ψ(ρ v √S) (Schröder 1870) gives ψ(v) = v Σ c_j E^j, c_0 = 1, of which every swing leaves the share ρ: the logarithm of ψ counts swings.
+//! The same with ρ ψ(v) = ψ(ρ v √S) (Schröder 1870) gives ψ(v) = v Σ c_j E^j, c_0 = 1, of which every swing leaves the share ρ: the
+//! logarithm of ψ counts swings.
 
 use core::array::from_fn;
 

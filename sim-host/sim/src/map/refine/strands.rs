@@ -47,8 +47,8 @@ impl Strands {
         self.chords.iter().map(Chord::length).fold(0.0, f64::max)
     }
 
-    /// How far boundaries through the points `inside` go from the chords in the middle of them, in tolerances; none unless every chord that is longer than a tolerance has one of
-    /// them beside its middle part.
+    /// How far boundaries through the points `inside` go from the chords in the middle of them, in tolerances; none unless every chord that
+    /// is longer than a tolerance has one of them beside its middle part.
     pub(super) fn deviation(&self, inside: &[Point]) -> Option<f64> {
         let nearest = |point: &Point| self.chords.iter().map(|chord| chord.distance(*point)).fold(f64::INFINITY, f64::min);
         let shown = |chord: &Chord| {
