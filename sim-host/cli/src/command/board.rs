@@ -216,7 +216,6 @@ fn show(session: &mut Talk, json: bool, out: &mut impl Write) -> anyhow::Result<
     if json { print_json(&info, out) } else { Ok(write!(out, "{info}")?) }
 }
 
-/// Prints results as JSON.
 pub(super) fn print_json(results: &impl Serialize, out: &mut impl Write) -> anyhow::Result<()> {
     Ok(write_json(&Versioned::new(results), out)?)
 }

@@ -66,7 +66,6 @@ impl Phrase {
     }
 }
 
-/// The block.
 fn block(scene: &Scene) -> Phrase {
     let file = &scene.file;
     let block = &file.block;

@@ -56,7 +56,6 @@ pub(super) struct Label {
     pub text: TickText,
 }
 
-/// Ticks of an axis.
 #[derive(Clone, Debug, Default)]
 pub(super) struct AxisTicks {
     /// Ticks with a label, no two of which collide, in rising order.
@@ -66,7 +65,6 @@ pub(super) struct AxisTicks {
 }
 
 impl Axis {
-    /// Ticks of the axis.
     pub(super) fn ticks(&self) -> AxisTicks {
         let mut ticks = AxisTicks::default();
         for target in (1..=self.target.max(1)).rev() {

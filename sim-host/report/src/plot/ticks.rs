@@ -118,7 +118,6 @@ pub(super) fn decade_ticks(range: &Range<f64>, target: usize, length_px: f64) ->
     (labelled, minor)
 }
 
-/// Text of a tick.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct TickText {
     base: String,

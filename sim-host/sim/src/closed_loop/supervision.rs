@@ -178,7 +178,6 @@ mod tests {
         supervision(&structure, &desk.suite, &design, table, 0.0).monitor
     }
 
-    /// Faults of a loop.
     fn faults(desk: &LoopScene, seed: u64) -> usize {
         faults_with(desk, seed, &mut ())
     }

@@ -298,7 +298,6 @@ fn rounded(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// One field of a line.
 fn field(line: &str, column: usize) -> Option<&str> {
     let mut fields = line.split([' ', '\t', ',', ';']).filter(|field| !field.is_empty());
     fields.nth(column).map(|field| field.trim_matches('"'))

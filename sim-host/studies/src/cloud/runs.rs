@@ -288,7 +288,6 @@ impl Target<'_> {
         shakings.iter().zip(found).map(answer).collect()
     }
 
-    /// The motion of the ground.
     fn ground(&self, shaking: &Shaking<'_>) -> GroundMotions {
         shaking.motion.ground(shaking.factor, self.structure.scene.file.ground[0].start_s)
     }

@@ -102,7 +102,6 @@ impl Bench<'_> {
         variant
     }
 
-    /// One run.
     pub(super) fn run(&self, law: LawName, motion: &Motion, specimen: usize) -> Result<Run, StudyError> {
         let kind = match law {
             LawName::Passive => Some("none"),

@@ -78,7 +78,6 @@ pub(super) fn by_objective(choices: &Choices<'_>) -> String {
     quantile.map_or_else(String::new, |share| format!(" by the {} quantile over the specimens", percent(share)))
 }
 
-/// A device in one string.
 pub(super) fn device(row: &Row) -> String {
     match (&row.mount, row.mass_ratio) {
         (Some(mount), Some(mass_ratio)) => format!("{}, {mount}, σ = {}", row.law, short(mass_ratio)),
