@@ -35,8 +35,8 @@ use expansion::{LEAST_TERMS, RECORD_TERMS, TERMS};
 use ground::{Ground, Sampled};
 use watch::Watch;
 
-/// Steps and events that the core may take in one interval of the ground, or after a record.
-const MOST_EVENTS: u32 = 2_000_000;
+/// Steps and events that the core may take in one interval or segment of the ground, or after a record.
+pub const MOST_EVENTS: u32 = 2_000_000;
 
 /// A block with a device on moving ground, at rest at first.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! A system through a whole ground motion and the free time after it.
 
+use sprag_ensemble::hybrid::MOST_EVENTS;
 use sprag_loops::{HybridLoop, IdealLoop};
 use sprag_shared::math::scalar::Real;
 #[cfg(feature = "effects")]
@@ -17,9 +18,6 @@ use crate::ground_motion::{GroundMotion, Segment, SumSegment};
 
 /// Arcs that one segment of ground motion may take.
 const MOST_ARCS: u32 = 50_000_000;
-
-/// Steps and events of a device with a memory that one segment may take.
-const MOST_EVENTS: u32 = 2_000_000;
 
 /// Someone who needs to know which part of the ground motion is shown.
 pub trait Segmented {
