@@ -1,14 +1,14 @@
 //! How much of what is possible each clutch law does: the laws between the plain devices and a law that knew the ground motion beforehand.
 
 use sprag_report::long_run::in_order::all_in_order;
-use sprag_report::plot::{CellMap, CellMaps, Class, Scale, cell_map_figure};
+use sprag_report::plot::Class;
 use sprag_report::progress::Progress;
 use sprag_report::text_table::{TextTable, number};
 use sprag_sim::clairvoyant::Grid;
 
 use super::bench::{Conditions, StudyError, with_loop};
 use super::law_settings::{SLENDERNESS_DEG, Setting};
-use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families};
+use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families, maps_of_pulses};
 use super::motion::{Family, Motion, Records, and_records};
 use super::report::Report;
 use crate::statistics::quantile;
@@ -210,27 +210,12 @@ fn map(kinds: &[Kind], fates: &[Vec<Fate>]) -> Result<String, StudyError> {
     let names = ["bare block, inerter or Eq. 10 stands", "another law stands", "only a clairvoyant law would", "no law can"];
     let mut classes = Class::outcomes();
     classes.iter_mut().zip(names).for_each(|(class, name)| name.clone_into(&mut class.name));
-    let map = |(kind, fates): (&Kind, &Vec<Fate>)| CellMap {
-        title: kind.name.clone(),
-        note: format!("{} of {} open", fates.iter().filter(|fate| fate.class() == 2).count(), fates.len()),
-        columns: CELLS,
-        rows: CELLS,
-        to_the_edges: false,
-        cells: fates.iter().map(Fate::class).collect(),
-        curves: Vec::new(),
+    let map = |(kind, fates): (&Kind, &Vec<Fate>)| {
+        let note = format!("{} of {} open", fates.iter().filter(|fate| fate.class() == 2).count(), fates.len());
+        (kind.name.clone(), note, fates.iter().map(Fate::class).collect::<Vec<usize>>())
     };
-    Ok(cell_map_figure(&CellMaps {
-        title: "The plainest that keeps the block standing".into(),
-        classes,
-        scales: (Scale::Linear, Scale::Linear),
-        x_title: "ω_g/*p*".to_owned(),
-        x: FREQUENCIES,
-        y_title: "*a*_g/(*g* tan α)".to_owned(),
-        y: AMPLITUDES,
-        maps: kinds.iter().zip(fates).take(Family::ALL.len()).map(map).collect(),
-        curves: Vec::new(),
-        columns: 4,
-    })?)
+    let maps = kinds.iter().zip(fates).take(Family::ALL.len()).map(map);
+    maps_of_pulses("The plainest that keeps the block standing", classes, maps, (CELLS, 4))
 }
 
 #[cfg(test)]

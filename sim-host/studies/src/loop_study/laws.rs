@@ -259,31 +259,36 @@ pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>
 }
 
 fn maps(kinds: &[Kind], runs: &[Vec<Vec<Run>>]) -> Result<String, StudyError> {
-    let map = |kind: &Kind, law: &LawName, runs: &[Run]| CellMap {
-        title: format!("{}, {}", law.name(), kind.name),
-        note: format!("{} of {}", runs.iter().filter(|run| run.outcome.overturned()).count(), runs.len()),
-        columns: CELLS,
-        rows: CELLS,
-        to_the_edges: false,
-        cells: runs.iter().map(|run| Cell::from(run.outcome).class()).collect(),
-        curves: Vec::new(),
+    let map = |kind: &Kind, law: &LawName, runs: &[Run]| {
+        let note = format!("{} of {}", runs.iter().filter(|run| run.outcome.overturned()).count(), runs.len());
+        let cells: Vec<usize> = runs.iter().map(|run| Cell::from(run.outcome).class()).collect();
+        (format!("{}, {}", law.name(), kind.name), note, cells)
     };
-    let maps = kinds
-        .iter()
-        .zip(runs)
-        .flat_map(|(kind, laws)| LAWS.iter().zip(laws).map(move |(law, runs)| map(kind, law, runs)))
-        .collect();
+    let pairs = kinds.iter().zip(runs);
+    let maps = pairs.flat_map(|(kind, laws)| LAWS.iter().zip(laws).map(move |(law, runs)| map(kind, law, runs)));
+    maps_of_pulses("Overturning by clutch law, ideal model", Class::outcomes(), maps, (CELLS, LAWS.len()))
+}
+
+/// Maps of pulses over ω/p and amplitude, each with title, note and classes of its cells, which are `side` by `side`.
+pub(super) fn maps_of_pulses(
+    title: &str,
+    classes: Vec<Class>,
+    maps: impl Iterator<Item = (String, String, Vec<usize>)>,
+    (side, columns): (usize, usize),
+) -> Result<String, StudyError> {
+    let map =
+        |(title, note, cells)| CellMap { title, note, columns: side, rows: side, to_the_edges: false, cells, curves: Vec::new() };
     Ok(cell_map_figure(&CellMaps {
-        title: "Overturning by clutch law, ideal model".into(),
-        classes: Class::outcomes(),
+        title: title.into(),
+        classes,
         scales: (Scale::Linear, Scale::Linear),
         x_title: "ω_g/*p*".to_owned(),
         x: FREQUENCIES,
         y_title: "*a*_g/(*g* tan α)".to_owned(),
         y: AMPLITUDES,
-        maps,
+        maps: maps.map(map).collect(),
         curves: Vec::new(),
-        columns: LAWS.len(),
+        columns,
     })?)
 }
 
