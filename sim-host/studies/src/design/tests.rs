@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use sprag_shared::math;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
@@ -88,8 +89,8 @@ fn an_impact_jolts_upwards_too() {
     let ground = scene.ground_motions().unwrap();
     let run = simulate(&scene, &ground, &Interrupt::default()).unwrap().remove(0);
     let slenderness = 20.0_f64.to_radians();
-    let square = 2.0 * 0.75 * GRAVITY / 2.0 * ((0.5 * slenderness).cos() - slenderness.cos());
-    let jump = 2.0 * 2.0 * slenderness.sin() * square.sqrt();
+    let square = 2.0 * 0.75 * GRAVITY / 2.0 * (math::cos(0.5 * slenderness) - math::cos(slenderness));
+    let jump = 2.0 * 2.0 * math::sin(slenderness) * math::square_root(square);
     let found = Asked::of(&scene, &ground, &run).jump.value;
     assert!((found / jump - 1.0).abs() < 1e-9, "{found} {jump}");
 }
