@@ -33,9 +33,9 @@ pub struct Asked {
     pub jump: Extreme<f64>,
     /// What the coils did, of clutches that have some.
     pub coils: Option<CoilUse>,
-    /// Coefficient of friction that the toe needs, impacts included.
+    /// Coefficient of friction that the toe needs, impacts and jolts included.
     pub friction_needed: Option<f64>,
-    /// Whether the toe would leave the ground.
+    /// Whether the toe would leave the ground, at a jolt or between.
     pub contact_lost: bool,
     /// How accurate that is, where it was asked for.
     pub error: Option<ErrorEstimate>,
@@ -78,7 +78,10 @@ impl Asked {
             }
         }
         let checks = run.checks.as_ref();
-        let impulses = [run.impulses.impact_friction_needed, checks.and_then(|checks| checks.friction_needed)];
+        let impulses = run.impulses;
+        let frictions =
+            [checks.and_then(|checks| checks.friction_needed), impulses.impact_friction_needed, impulses.jolt_friction_needed];
+        let lifted = impulses.jolt_pull_m_s.is_some_and(|pull| pull > 0.0);
         Asked {
             outcome: run.outcome,
             peak_rotation: run.peak_rotation,
@@ -96,8 +99,8 @@ impl Asked {
             },
             jump,
             coils: checks.and_then(|checks| checks.coils),
-            friction_needed: impulses.into_iter().flatten().reduce(f64::max),
-            contact_lost: checks.is_some_and(|checks| checks.contact_lost_time_s.is_some()),
+            friction_needed: frictions.into_iter().flatten().reduce(f64::max),
+            contact_lost: lifted || checks.is_some_and(|checks| checks.contact_lost_time_s.is_some()),
             error: run.error.map(|report| report.estimate),
         }
     }

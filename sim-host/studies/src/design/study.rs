@@ -74,7 +74,7 @@ pub struct PartsList {
     pub scene_capacity_n: Option<f64>,
     /// Sensors of a controller.
     pub sensors: Option<SensorClass>,
-    /// Largest coefficient of friction that the toe needs, impacts included.
+    /// Largest coefficient of friction that the toe needs, impacts and jolts included.
     pub friction_needed: Option<f64>,
     /// Motions under which the toe would leave the ground.
     pub contact_lost: usize,

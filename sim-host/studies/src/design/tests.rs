@@ -1,6 +1,7 @@
 //! Lists of devices under one pulse.
 
 use std::f64::consts::PI;
+use std::path::Path;
 
 use sprag_shared::math;
 use sprag_shared::structure::block::GRAVITY;
@@ -13,6 +14,7 @@ use super::basis::Basis;
 use super::largest::Largest;
 use super::page::page;
 use super::study::{PartsList, Problem};
+use super::subject::Subject;
 use crate::sensitivity::motion::StudyMotion;
 
 const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
@@ -93,4 +95,20 @@ fn an_impact_jolts_upwards_too() {
     let jump = 2.0 * 2.0 * math::sin(slenderness) * math::square_root(square);
     let found = Asked::of(&scene, &ground, &run).jump.value;
     assert!((found / jump - 1.0).abs() < 1e-9, "{found} {jump}");
+}
+
+/// A rigid clutch that closes at speed pushes the toe sideways with little on it, or pulls it up.
+#[test]
+fn jolts_count_for_friction_and_contact() {
+    let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"));
+    let rigid = ["block.mass_kg=1e4", "device.2.engagement=rigid"].map(str::to_owned);
+    let scene = Scene::load(path, &rigid).unwrap();
+    let motion = StudyMotion::own(&scene).unwrap().unwrap();
+    let subject = Subject::new(&scene, 2).unwrap().watched(None);
+    let run = simulate(&subject.scene, &motion.ground, &Interrupt::default()).unwrap().remove(0);
+    let asked = Asked::of(&subject.scene, &motion.ground, &run);
+    let (impact, jolt) = (run.impulses.impact_friction_needed.unwrap(), run.impulses.jolt_friction_needed.unwrap());
+    assert!(jolt > impact && asked.friction_needed == Some(jolt), "{asked:?} {:?}", run.impulses);
+    let elsewhere = run.checks.as_ref().unwrap().contact_lost_time_s;
+    assert!(elsewhere.is_none() && run.impulses.jolt_pull_m_s.unwrap() > 0.0 && asked.contact_lost, "{asked:?}");
 }
