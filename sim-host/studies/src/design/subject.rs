@@ -70,8 +70,6 @@ impl Subject {
         let actuation = device.actuation.get_or_insert_default();
         actuation.engagement_delay_s += delay_s;
         actuation.release_delay_s += delay_s;
-        // Flywheels with a speed of their own move by the consistent kinematics.
-        device.kinematics = None;
         self.with(self.scene.with_device(device)?)
     }
 
@@ -88,6 +86,7 @@ impl Subject {
             return Ok(None);
         }
         device.engagement = None;
+        // Flywheels with a speed of their own move by the consistent kinematics.
         device.kinematics = None;
         device.clutch = Some(ClutchTable { capacity_n: Some(capacity_n), ..ClutchTable::default() });
         self.with(self.scene.with_device(device)?).map(Some)

@@ -19,19 +19,36 @@ use crate::sensitivity::motion::StudyMotion;
 
 const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
 
-/// The list of the only device, of `kind` and with `keys`, of a pier of 10 t, and its page.
-fn designed(kind: &str, keys: &str) -> (PartsList, String) {
+/// A pier of 10 t with one device, of `kind` and with `keys`.
+fn pier(kind: &str, keys: &str) -> Scene {
     let text = format!(
         "block = {{ size_m = 2.0, slenderness_deg = 10.0, mass_kg = 1e4 }}\n\
          device = [{{ kind = '{kind}', mass_ratio = 0.5, {keys} }}]\n\
          ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 4.0 }}]"
     );
-    let scene = Scene::parse(&text, "scene").unwrap();
+    Scene::parse(&text, "scene").unwrap()
+}
+
+/// The list of the only device of a [`pier`], and its page.
+fn designed(kind: &str, keys: &str) -> (PartsList, String) {
+    let scene = pier(kind, keys);
     let motions = [StudyMotion::own(&scene).unwrap().unwrap()];
     let problem = Problem::new(&scene, &[], Basis::default()).unwrap();
     let mut findings = problem.solve(&motions, &Interrupt::default(), &|_| (), &|| ()).unwrap();
     let page = page(&problem, &findings, motions.len(), 0);
     (findings.lists.remove(0), page)
+}
+
+/// A delay is compared with none: nothing else may differ.
+#[test]
+fn later_clutches_move_by_the_kinematics_of_the_scene() {
+    for kinematics in ["paper", "consistent"] {
+        let scene = pier("clutched-pair", &format!("kinematics = '{kinematics}'"));
+        let subject = Subject::new(&scene, 0).unwrap();
+        let late = subject.later(0.01).unwrap();
+        assert_eq!(late.scene.devices[0].device, scene.devices[0].device, "{kinematics}");
+        assert_eq!(late.scene.devices[0].drivetrain.actuation.engagement_delay, 0.01);
+    }
 }
 
 fn chosen(list: &PartsList, part: &str, quantity: &str) -> Option<f64> {
