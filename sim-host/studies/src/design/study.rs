@@ -102,9 +102,13 @@ impl<'a> Problem<'a> {
     /// The devices of `scene` with a flywheel that have one of `names`, or all without any.
     ///
     /// # Errors
-    /// [`DesignError`] for an assumption outside its range, a block without a mass, and devices that there are not.
+    /// [`DesignError`] for an assumption outside its range, a block without a mass or on a foundation, and devices that there are not.
     pub fn new(scene: &'a Scene, names: &[String], basis: Basis) -> Result<Problem<'a>, DesignError> {
         basis.check()?;
+        if scene.file.block.foundation.is_some() {
+            let reason = "parts are sized for a block on rigid ground: leave block.foundation out";
+            return Err(scene.key("block.foundation").conflict(reason).into());
+        }
         let needed = "a size needs a force in N; give it in the scene, or by --set block.mass_kg=KG";
         let mass_kg = scene.file.block.mass_kg.ok_or_else(|| scene.key("block.mass_kg").missing(needed))?;
         let with_flywheel: Vec<usize> =

@@ -19,19 +19,20 @@ use crate::sensitivity::motion::StudyMotion;
 
 const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
 
-/// A pier of 10 t with one device, of `kind` and with `keys`.
-fn pier(kind: &str, keys: &str) -> Scene {
+/// A pier of 10 t with one device, of `kind` and with `keys`, and with `overrides`.
+fn pier(kind: &str, keys: &str, overrides: &[&str]) -> Scene {
     let text = format!(
         "block = {{ size_m = 2.0, slenderness_deg = 10.0, mass_kg = 1e4 }}\n\
          device = [{{ kind = '{kind}', mass_ratio = 0.5, {keys} }}]\n\
          ground = [{{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 4.0 }}]"
     );
-    Scene::parse(&text, "scene").unwrap()
+    let overrides: Vec<String> = overrides.iter().map(|&item| item.to_owned()).collect();
+    Scene::parse_with(&text, "scene", &overrides).unwrap()
 }
 
 /// The list of the only device of a [`pier`], and its page.
 fn designed(kind: &str, keys: &str) -> (PartsList, String) {
-    let scene = pier(kind, keys);
+    let scene = pier(kind, keys, &[]);
     let motions = [StudyMotion::own(&scene).unwrap().unwrap()];
     let problem = Problem::new(&scene, &[], Basis::default()).unwrap();
     let mut findings = problem.solve(&motions, &Interrupt::default(), &|_| (), &|| ()).unwrap();
@@ -43,12 +44,21 @@ fn designed(kind: &str, keys: &str) -> (PartsList, String) {
 #[test]
 fn later_clutches_move_by_the_kinematics_of_the_scene() {
     for kinematics in ["paper", "consistent"] {
-        let scene = pier("clutched-pair", &format!("kinematics = '{kinematics}'"));
+        let scene = pier("clutched-pair", &format!("kinematics = '{kinematics}'"), &[]);
         let subject = Subject::new(&scene, 0).unwrap();
         let late = subject.later(0.01).unwrap();
         assert_eq!(late.scene.devices[0].device, scene.devices[0].device, "{kinematics}");
         assert_eq!(late.scene.devices[0].drivetrain.actuation.engagement_delay, 0.01);
     }
+}
+
+/// Forces of single flywheels are not known there, and no force is not no rocking.
+#[test]
+fn a_block_on_a_foundation_is_refused_by_name() {
+    let soft =
+        pier("inerter", "mount = 'centre-of-mass'", &["block.foundation={ vertical_frequency_hz = 10.0, damping_ratio = 0.3 }"]);
+    let refused = Problem::new(&soft, &[], Basis::default()).unwrap_err().to_string();
+    assert!(refused.contains("block.foundation") && refused.contains("rigid ground"), "{refused}");
 }
 
 fn chosen(list: &PartsList, part: &str, quantity: &str) -> Option<f64> {
