@@ -206,6 +206,7 @@ fn changed(
 #[cfg(test)]
 mod tests {
     use sprag_shared::observers::outcome::Outcome;
+    use sprag_sim::scene::device::{DeviceTable, Kind};
 
     use super::*;
 
@@ -235,6 +236,40 @@ mod tests {
         assert!(left_out.contains("kinematics: consistent for inerter: the scene has it already"), "{left_out}");
         assert!(left_out.contains("give only one of both"), "{left_out}");
         assert!(!left_out.contains("wall of 5 Hz, 5 % damping for inerter"), "a wall of 7 Hz is another: {left_out}");
+    }
+
+    /// The keys of `value` below `path` that have a value.
+    fn keys(value: &toml::Value, path: &str) -> Vec<(String, toml::Value)> {
+        match value.as_table() {
+            Some(table) => table.iter().flat_map(|(key, value)| keys(value, &format!("{path}.{key}"))).collect(),
+            None => vec![(path.to_owned(), value.clone())],
+        }
+    }
+
+    #[test]
+    fn a_variant_keeps_what_it_does_not_name() {
+        let sets = [
+            "device.2.actuation={ engagement_delay_s = 0.03, release_delay_s = 0.04, dwell_s = 0.01 }",
+            "device.2.flywheel={ dry_deceleration_m_s2 = 0.02 }",
+            "device.2.rack={ viscous_1_s = 0.02, dry_friction_ratio = 0.005 }",
+            "device.2.weight={ rack_ratio = 0.005, flywheels_ratio = 0.01 }",
+        ];
+        let (scene, study) = Study::load(near_fault(), &sets.map(str::to_owned)).unwrap();
+        let of = |table: &DeviceTable| keys(&toml::Value::try_from(table).unwrap(), "device.2");
+        let given = of(&scene.file.device[2]);
+        let mut compared = Vec::new();
+        for setup in study.setups.iter().filter(|setup| setup.device == 2) {
+            let Some(variant) = setup.variant.map(|number| &VARIANTS[number]) else { continue };
+            let (changes, found) = (variant.overrides(2, Kind::ClutchedPair).unwrap(), of(&setup.subject.scene.file.device[0]));
+            let is_named = |key: &str| changes.iter().any(|change| change.split_once('=').is_some_and(|(name, _)| name == key));
+            for key in given.iter().filter(|(name, _)| !is_named(name)) {
+                assert!(found.contains(key), "{}: {key:?} {found:?}", variant.label());
+            }
+            compared.push(variant.effect);
+        }
+        for effect in ["actuation", "flywheel", "rack", "weight", "engagement", "clutch"] {
+            assert!(compared.contains(&effect), "{effect}: {:?}", study.left_out);
+        }
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub struct Variant {
     pub name: &'static str,
     /// The kinds of devices that it is for.
     pub kinds: &'static [Kind],
-    /// `KEY=VALUE`, as for `--set`; `N` is the number of the device.
+    /// `KEY=VALUE`, as for `--set`, of single values: a table of the scene keeps what else it has. `N` is the number of the device.
     pub changes: &'static [&'static str],
     /// Further ones, for a clutched pair.
     pub of_pair: &'static [&'static str],
@@ -72,13 +72,13 @@ pub const VARIANTS: [Variant; 33] = [
         "foundation",
         "vertical frequency 10 Hz, ζ = 0.3",
         EVERY,
-        &["block.foundation={ vertical_frequency_hz = 10, damping_ratio = 0.3 }"],
+        &["block.foundation.vertical_frequency_hz=10", "block.foundation.damping_ratio=0.3"],
     ),
     variant(
         "foundation",
         "vertical frequency 5 Hz, ζ = 0.3",
         EVERY,
-        &["block.foundation={ vertical_frequency_hz = 5, damping_ratio = 0.3 }"],
+        &["block.foundation.vertical_frequency_hz=5", "block.foundation.damping_ratio=0.3"],
     ),
     Variant { alone: true, ..variant("sliding", "μ = 0.4", BARE, &["block.friction_coefficient=0.4"]) },
     variant("support", "amplifies the ground by 20 %", INERTERS, &["device.N.support_amplification=1.2"]),
@@ -96,23 +96,25 @@ pub const VARIANTS: [Variant; 33] = [
         &["device.N.support_frequency_hz=2", "device.N.support_damping_ratio=0.02"],
     ),
     variant("kinematics", "consistent", INERTERS, &["device.N.kinematics=consistent"]),
-    variant("weight", "guided rack, 0.01 × block mass", INERTERS, &["device.N.weight={ rack_ratio = 0.01 }"]),
+    variant("weight", "guided rack, 0.01 × block mass", INERTERS, &["device.N.weight.rack_ratio=0.01"]),
     variant(
         "weight",
         "flywheels on the block, 0.02 × its mass",
         INERTERS,
-        &["device.N.weight={ flywheels_ratio = 0.02, flywheels_on = \"block\" }"],
+        &["device.N.weight.flywheels_ratio=0.02", "device.N.weight.flywheels_on=block"],
     ),
-    variant("rack", "dry friction, 0.01 × block weight", INERTERS, &["device.N.rack={ dry_friction_ratio = 0.01 }"]),
-    variant("rack", "viscous 0.05 1/s", INERTERS, &["device.N.rack={ viscous_1_s = 0.05 }"]),
-    variant("rack", "mesh friction, 0.05 × force", INERTERS, &["device.N.rack={ load_friction = 0.05 }"]),
+    variant("rack", "dry friction, 0.01 × block weight", INERTERS, &["device.N.rack.dry_friction_ratio=0.01"]),
+    variant("rack", "viscous 0.05 1/s", INERTERS, &["device.N.rack.viscous_1_s=0.05"]),
+    variant("rack", "mesh friction, 0.05 × force", INERTERS, &["device.N.rack.load_friction=0.05"]),
     variant(
         "engagement",
         "rigid, bearings, brake 10 m/s²",
         PAIR,
         &[
             "device.N.engagement=rigid",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
+            "device.N.flywheel.viscous_rate_1_s=0.05",
+            "device.N.flywheel.dry_deceleration_m_s2=0.05",
+            "device.N.flywheel.brake_deceleration_m_s2=10",
         ],
     ),
     variant(
@@ -121,14 +123,21 @@ pub const VARIANTS: [Variant; 33] = [
         PAIR,
         &[
             "device.N.engagement=rigid",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = \"instant\" }",
+            "device.N.flywheel.viscous_rate_1_s=0.05",
+            "device.N.flywheel.dry_deceleration_m_s2=0.05",
+            "device.N.flywheel.brake_deceleration_m_s2=instant",
         ],
     ),
     variant(
         "engagement",
         "overrunning, bearings, no brake",
         PAIR,
-        &["device.N.engagement=overrunning", "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
+        &[
+            "device.N.engagement=overrunning",
+            "device.N.flywheel.viscous_rate_1_s=0.05",
+            "device.N.flywheel.dry_deceleration_m_s2=0.05",
+            NO_BRAKE,
+        ],
     ),
     // Open wet clutches drag with a few per cent of what they pass: for σ = 0.5 this is 2 % of a tenth of the block's weight at 0.4 m/s.
     variant(
@@ -137,33 +146,34 @@ pub const VARIANTS: [Variant; 33] = [
         PAIR,
         &[
             "device.N.engagement=rigid",
-            "device.N.flywheel={ drag_rate_1_s = 0.1 }",
-            "device.N.actuation={ engagement_delay_s = 0.001 }",
+            "device.N.flywheel.drag_rate_1_s=0.1",
+            "device.N.actuation.engagement_delay_s=0.001",
+            NO_BRAKE,
         ],
     ),
-    variant(
-        "clutch",
-        "capacity 0.1 × block weight, instant brake",
-        PAIR,
-        &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE],
-    ),
+    variant("clutch", "capacity 0.1 × block weight, instant brake", PAIR, &["device.N.clutch.capacity_ratio=0.1", INSTANT_BRAKE]),
     variant(
         "clutch",
         "capacity 0.02 × block weight, instant brake",
         PAIR,
-        &["device.N.clutch={ capacity_ratio = 0.02 }", INSTANT_BRAKE],
+        &["device.N.clutch.capacity_ratio=0.02", INSTANT_BRAKE],
     ),
     variant(
         "clutch",
         "elastic, K = 1e4 m p², ζ = 0.1, instant brake",
         PAIR,
-        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1 }", INSTANT_BRAKE],
+        &["device.N.clutch.stiffness_ratio=1e4", "device.N.clutch.damping_ratio=0.1", INSTANT_BRAKE],
     ),
     variant(
         "clutch",
         "K = 1e4 m p², ζ = 0.1, 1 mm backlash, instant brake",
         PAIR,
-        &["device.N.clutch={ stiffness_ratio = 1e4, damping_ratio = 0.1, backlash_m = 0.001 }", INSTANT_BRAKE],
+        &[
+            "device.N.clutch.stiffness_ratio=1e4",
+            "device.N.clutch.damping_ratio=0.1",
+            "device.N.clutch.backlash_m=0.001",
+            INSTANT_BRAKE,
+        ],
     ),
     Variant {
         of_pair: &[INSTANT_BRAKE],
@@ -173,22 +183,35 @@ pub const VARIANTS: [Variant; 33] = [
         "actuation",
         "coil of 0.1 s, capacity 0.1 × block weight, instant brake",
         PAIR,
-        &["device.N.clutch={ capacity_ratio = 0.1 }", INSTANT_BRAKE, "device.N.actuation={ time_constant_s = 0.1 }"],
+        &["device.N.clutch.capacity_ratio=0.1", INSTANT_BRAKE, "device.N.actuation.time_constant_s=0.1"],
     ),
-    variant("actuation", "delays of 20 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }"]),
-    variant("actuation", "delays of 50 ms", PAIR, &["device.N.actuation={ engagement_delay_s = 0.05, release_delay_s = 0.05 }"]),
-    variant("actuation", "1 in 10 engagements missed", PAIR, &["device.N.actuation={ miss_probability = 0.1 }"]),
+    variant(
+        "actuation",
+        "delays of 20 ms",
+        PAIR,
+        &["device.N.actuation.engagement_delay_s=0.02", "device.N.actuation.release_delay_s=0.02"],
+    ),
+    variant(
+        "actuation",
+        "delays of 50 ms",
+        PAIR,
+        &["device.N.actuation.engagement_delay_s=0.05", "device.N.actuation.release_delay_s=0.05"],
+    ),
+    variant("actuation", "1 in 10 engagements missed", PAIR, &["device.N.actuation.miss_probability=0.1"]),
     variant(
         "flywheel",
         "bearings 0.05 m/s², 0.05 1/s",
         INERTERS,
-        &["device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }"],
+        &["device.N.flywheel.viscous_rate_1_s=0.05", "device.N.flywheel.dry_deceleration_m_s2=0.05"],
     ),
     Variant {
         of_pair: &[
-            "device.N.clutch={ capacity_ratio = 0.1 }",
-            "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05, brake_deceleration_m_s2 = 10 }",
-            "device.N.actuation={ engagement_delay_s = 0.02, release_delay_s = 0.02 }",
+            "device.N.clutch.capacity_ratio=0.1",
+            "device.N.flywheel.viscous_rate_1_s=0.05",
+            "device.N.flywheel.dry_deceleration_m_s2=0.05",
+            "device.N.flywheel.brake_deceleration_m_s2=10",
+            "device.N.actuation.engagement_delay_s=0.02",
+            "device.N.actuation.release_delay_s=0.02",
         ],
         ..variant(
             "together",
@@ -197,16 +220,22 @@ pub const VARIANTS: [Variant; 33] = [
             &[
                 "device.N.kinematics=consistent",
                 "block.restitution=geometric",
-                "device.N.flywheel={ viscous_rate_1_s = 0.05, dry_deceleration_m_s2 = 0.05 }",
-                "device.N.rack={ dry_friction_ratio = 0.01, viscous_1_s = 0.05 }",
-                "device.N.weight={ flywheels_ratio = 0.02, rack_ratio = 0.01 }",
+                "device.N.flywheel.viscous_rate_1_s=0.05",
+                "device.N.flywheel.dry_deceleration_m_s2=0.05",
+                "device.N.rack.dry_friction_ratio=0.01",
+                "device.N.rack.viscous_1_s=0.05",
+                "device.N.weight.flywheels_ratio=0.02",
+                "device.N.weight.rack_ratio=0.01",
             ],
         )
     },
 ];
 
+/// Released flywheels coast, those of a scene with brakes too.
+const NO_BRAKE: &str = "device.N.flywheel.brake_deceleration_m_s2=0";
+
 /// As the ideal clutch has it.
-const INSTANT_BRAKE: &str = "device.N.flywheel={ brake_deceleration_m_s2 = \"instant\" }";
+const INSTANT_BRAKE: &str = "device.N.flywheel.brake_deceleration_m_s2=instant";
 
 impl Variant {
     /// Its `KEY=VALUE` for device number `index` of `kind`; `None` if it is not for that kind.
@@ -276,20 +305,21 @@ mod tests {
     #[test]
     fn a_label_says_all_that_its_variant_sets_and_no_mass_reads_as_metres() {
         let said = [
-            ("brake_deceleration_m_s2 = 10", "brake 10 m/s²"),
-            ("brake_deceleration_m_s2 = \"instant\"", "instant brake"),
+            ("brake_deceleration_m_s2=10", "brake 10 m/s²"),
+            ("brake_deceleration_m_s2=0", "no brake"),
+            ("brake_deceleration_m_s2=instant", "instant brake"),
             ("viscous_rate_1_s", "bearings"),
-            ("capacity_ratio = 0.1 ", "capacity 0.1 × block weight"),
-            ("capacity_ratio = 0.02", "capacity 0.02 × block weight"),
-            ("stiffness_ratio = 1e4", "K = 1e4 m p²"),
-            ("damping_ratio = 0.1", "ζ = 0.1"),
-            ("backlash_m = 0.001", "1 mm backlash"),
-            ("rack_ratio = 0.01", "0.01 × block mass"),
-            ("flywheels_ratio = 0.02", "flywheels"),
-            ("flywheels_on = \"block\"", "on the block"),
-            ("dry_friction_ratio = 0.01", "0.01 × block weight"),
-            ("drag_rate_1_s = 0.1", "drag 0.1 1/s"),
-            ("engagement_delay_s = 0.001", "1 ms to engage"),
+            ("capacity_ratio=0.1", "capacity 0.1 × block weight"),
+            ("capacity_ratio=0.02", "capacity 0.02 × block weight"),
+            ("stiffness_ratio=1e4", "K = 1e4 m p²"),
+            ("damping_ratio=0.1", "ζ = 0.1"),
+            ("backlash_m=0.001", "1 mm backlash"),
+            ("rack_ratio=0.01", "0.01 × block mass"),
+            ("flywheels_ratio=0.02", "flywheels"),
+            ("flywheels_on=block", "on the block"),
+            ("dry_friction_ratio=0.01", "0.01 × block weight"),
+            ("drag_rate_1_s=0.1", "drag 0.1 1/s"),
+            ("engagement_delay_s=0.001", "1 ms to engage"),
             ("engagement=rigid", "rigid"),
             ("engagement=overrunning", "overrunning"),
         ];
