@@ -83,11 +83,15 @@ fn reasons(problem: &Problem<'_>, list: &PartsList) -> String {
     let (basis, pinion, disc) = (&problem.basis, &list.pinion, &list.flywheel);
     let mut text = "\n### Why\n\n".to_owned();
     let mut reason = |line: String| text += &format!("- {line}\n");
-    reason(format!(
-        "Support and rack: the largest over the motions times {}, then the next number of R10 (force) and R20 (travel) of ISO 3. The rack has \
-         four teeth more than its travel.",
-        basis.margin
-    ));
+    reason(if list.on_support {
+        format!("Support: the largest over the motions times {}, then the next number of R10 of ISO 3.", basis.margin)
+    } else {
+        format!(
+            "Support and rack: the largest over the motions times {}, then the next number of R10 (force) and R20 (travel) of ISO 3. The rack has \
+             four teeth more than its travel.",
+            basis.margin
+        )
+    });
     let load = match pinion.clutch_torque_n_m {
         Some(torque) => format!(
             "the {} N at which the clutch of {} N m slips, so that it slips before a tooth breaks",
@@ -108,11 +112,17 @@ fn reasons(problem: &Problem<'_>, list: &PartsList) -> String {
             basis.service_factor
         ));
     }
+    let speed = if list.on_support {
+        "Its speed is not known"
+    } else if disc.rim_stress_mpa < 0.1 * basis.allowable_stress_mpa {
+        "Speed does not limit it"
+    } else {
+        "Speed matters"
+    };
     reason(format!(
         "Flywheel: J = m_r ρ² for an inertance of {} kg (Eq. 9), a solid steel disc ({STEEL_KG_M3} kg/m³) no thicker than {DISC_THICKNESS_RATIO} of its \
-         radius with a diameter of R20. The stress at the rim is ρ_s v², the hoop stress of a thin ring, more than anywhere in a disc. {}.",
-        figures(list.inertance_kg),
-        if disc.rim_stress_mpa < 0.1 * basis.allowable_stress_mpa { "Speed does not limit it" } else { "Speed matters" }
+         radius with a diameter of R20. The stress at the rim is ρ_s v², the hoop stress of a thin ring, more than anywhere in a disc. {speed}.",
+        figures(list.inertance_kg)
     ));
     if let Some(delay) = &list.delay {
         let [_, .., last] = DELAYS_S;
@@ -208,7 +218,8 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         limit(format!("A pinion of {} teeth is undercut: it needs a profile shift.", problem.basis.teeth));
     }
     limit("Teeth are checked for bending alone: not for pitting, speed, shafts, keys and bearings, nor the rack's guides. The inertia of pinion, shaft and clutch is left out.".to_owned());
-    let heat = findings.lists.iter().filter(|list| list.pinion.clutch_torque_n_m.is_some()).map(|list| list.flywheel.energy_j);
+    let is_heated = |list: &&PartsList| list.pinion.clutch_torque_n_m.is_some() && !list.on_support;
+    let heat = findings.lists.iter().filter(is_heated).map(|list| list.flywheel.energy_j);
     let heat = heat.reduce(f64::max).map_or_else(String::new, |heat| {
         format!(" A closing that brings a flywheel to its largest speed makes {} J of heat.", figures(heat))
     });
@@ -216,8 +227,12 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         "Clutches are sized by torque: wear and drag of an open clutch are left out.{heat} Coils are sized by time; their power follows from the clutch that is bought."
     ));
     limit("One stage from rack to flywheel. A train of two needs a smaller disc and has a faster one.".to_owned());
-    if problem.scene.file.device.iter().any(|device| device.support_key().is_some()) {
-        limit("Speed of the rack is that of the block: what the support moves on its own is not in it.".to_owned());
+    if findings.lists.iter().any(|list| list.on_support) {
+        limit(
+            "On a support of its own motion travel and speed of the rack and speed, energy and stress of its flywheels are those of the block against \
+             the ground: what the support moves on its own is not in them, and no rack is chosen."
+                .to_owned(),
+        );
     }
     let friction = findings.lists.iter().filter_map(|list| list.friction_needed).reduce(f64::max);
     if let Some(friction) = friction {

@@ -93,6 +93,8 @@ pub struct Sizing<'a> {
     pub controlled: bool,
     /// The chosen clutches, where they were tried.
     pub built: Option<&'a Built>,
+    /// The support moves otherwise than the ground, so that nobody knows how the rack moves on it.
+    pub on_support: bool,
     /// The scene has a clutch of its own that slips, so that the chosen one was not tried.
     pub slips: bool,
     /// The scene's coil.
@@ -143,7 +145,7 @@ impl Sizing<'_> {
         let with_margin = |series: &[f64], needed: &Option<Largest>| {
             needed.as_ref().map(|needed| preferred(series, basis.margin * needed.value)).filter(|size| size.is_finite())
         };
-        let chosen_travel = with_margin(&R20, &travel);
+        let chosen_travel = with_margin(&R20, &travel).filter(|_| !self.on_support);
         // What slips later than the scene's clutch pulls with more than was needed here.
         let slips_at = if self.slips { preferred(&R10, pinion.load_n) } else { 0.0 };
         let chosen_support = with_margin(&R10, &support).map(|force| force.max(slips_at));
@@ -174,7 +176,8 @@ impl Sizing<'_> {
         list.sized(flywheel, "speed", "rev/min", of_speed(disc.speed_rev_min).as_ref(), None);
         list.sized(flywheel, "energy", "J", of_speed(disc.energy_j).as_ref(), None);
         let rim = of_speed(disc.rim_stress_mpa);
-        list.sized(flywheel, "stress at the rim", "MPa", rim.as_ref(), Some(basis.allowable_stress_mpa));
+        let allowable = (!self.on_support).then_some(basis.allowable_stress_mpa);
+        list.sized(flywheel, "stress at the rim", "MPa", rim.as_ref(), allowable);
 
         if let Some(allowed) = self.allowed {
             let motion = allowed.lost().and_then(|late| late.motion).map(|motion| self.motions[motion].name.clone());

@@ -50,6 +50,8 @@ pub struct PartsList {
     pub inertance_kg: f64,
     /// Whether the scene's controller drives its clutches.
     pub controlled: bool,
+    /// Whether its support moves otherwise than the ground: travel and speed of the rack are those of the block then, and no rack is chosen.
+    pub on_support: bool,
     /// Motions that were followed.
     pub motions: usize,
     /// Names of those that overturn the block: parts are for the time before its fall.
@@ -208,6 +210,7 @@ impl<'a> Problem<'a> {
         let rack_speed = rack_speed.map(|speed| speed.or_larger(built.as_ref().and_then(|built| built.rack_speed_m_s.as_ref())));
         let inertance_kg = scene.devices[index].device.mass_ratio * self.mass_kg;
         let disc = Disc::new(inertance_kg, chosen.radius_m, rack_speed.as_ref().map_or(0.0, |speed| speed.value));
+        let on_support = scene.file.device[index].support_key().is_some();
         let clutch = scene.file.device[index].clutch.as_ref();
         let scene_capacity_n = clutch.and_then(|clutch| clutch.capacity_n.or(clutch.capacity_ratio.map(|ratio| ratio * weight)));
         let sizing = Sizing {
@@ -222,6 +225,7 @@ impl<'a> Problem<'a> {
             allowed: delay.as_ref(),
             controlled: bare.is_controlled(),
             built: built.as_ref(),
+            on_support,
             slips: scene_capacity_n.is_some(),
             coil,
         };
@@ -234,6 +238,7 @@ impl<'a> Problem<'a> {
             flywheels: if has_clutches { 2 * sets } else { sets },
             inertance_kg,
             controlled: bare.is_controlled(),
+            on_support,
             motions: followed.clone().count(),
             overturned_by: named.map(|(motion, _)| motion.name.clone()).collect(),
             largest_rotation: largest(motions, &asked, rotation),

@@ -13,11 +13,13 @@ use super::asked::Asked;
 use super::basis::Basis;
 use super::largest::Largest;
 use super::page::page;
+use super::parts::Item;
 use super::study::{PartsList, Problem};
 use super::subject::Subject;
 use crate::sensitivity::motion::StudyMotion;
 
 const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
+const CENTRE: &str = "mount = 'centre-of-mass'";
 
 /// A pier of 10 t with one device, of `kind` and with `keys`, and with `overrides`.
 fn pier(kind: &str, keys: &str, overrides: &[&str]) -> Scene {
@@ -30,11 +32,10 @@ fn pier(kind: &str, keys: &str, overrides: &[&str]) -> Scene {
     Scene::parse_with(&text, "scene", &overrides).unwrap()
 }
 
-/// The list of the only device of a [`pier`], and its page.
-fn designed(kind: &str, keys: &str) -> (PartsList, String) {
-    let scene = pier(kind, keys, &[]);
-    let motions = [StudyMotion::own(&scene).unwrap().unwrap()];
-    let problem = Problem::new(&scene, &[], Basis::default()).unwrap();
+/// The list of the only device of `scene`, and its page.
+fn designed(scene: &Scene) -> (PartsList, String) {
+    let motions = [StudyMotion::own(scene).unwrap().unwrap()];
+    let problem = Problem::new(scene, &[], Basis::default()).unwrap();
     let mut findings = problem.solve(&motions, &Interrupt::default(), &|_| (), &|| ()).unwrap();
     let page = page(&problem, &findings, motions.len(), 0);
     (findings.lists.remove(0), page)
@@ -55,21 +56,24 @@ fn later_clutches_move_by_the_kinematics_of_the_scene() {
 /// Forces of single flywheels are not known there, and no force is not no rocking.
 #[test]
 fn a_block_on_a_foundation_is_refused_by_name() {
-    let soft =
-        pier("inerter", "mount = 'centre-of-mass'", &["block.foundation={ vertical_frequency_hz = 10.0, damping_ratio = 0.3 }"]);
+    let soft = pier("inerter", CENTRE, &["block.foundation={ vertical_frequency_hz = 10.0, damping_ratio = 0.3 }"]);
     let refused = Problem::new(&soft, &[], Basis::default()).unwrap_err().to_string();
     assert!(refused.contains("block.foundation") && refused.contains("rigid ground"), "{refused}");
 }
 
+fn item<'a>(list: &'a PartsList, part: &str, quantity: &str) -> Option<&'a Item> {
+    list.items.iter().find(|item| (item.part, item.quantity) == (part, quantity))
+}
+
 fn chosen(list: &PartsList, part: &str, quantity: &str) -> Option<f64> {
-    list.items.iter().find(|item| (item.part, item.quantity) == (part, quantity))?.chosen
+    item(list, part, quantity)?.chosen
 }
 
 /// Figure 3a: each corner has an inerter or a pair of its own, whose rack only rises.
 #[test]
 fn a_device_at_the_base_corners_is_there_twice() {
     for (kind, of_a_set) in [("inerter", 1), ("clutched-pair", 2)] {
-        let (list, page) = designed(kind, CORNERS);
+        let (list, page) = designed(&pier(kind, CORNERS, &[]));
         assert_eq!((list.sets, list.flywheels), (2, 2 * of_a_set), "{kind}");
         assert_eq!(chosen(&list, "all parts", "sets, one at each base corner"), Some(2.0));
         assert!(page.contains("buy this list twice"), "{page}");
@@ -77,7 +81,7 @@ fn a_device_at_the_base_corners_is_there_twice() {
         let teeth = (rises / (1e-3 * PI * list.pinion.module_mm)).ceil() + 4.0;
         assert_eq!(chosen(&list, "rack", "teeth"), Some(teeth));
 
-        let (list, page) = designed(kind, "mount = 'centre-of-mass'");
+        let (list, page) = designed(&pier(kind, CENTRE, &[]));
         assert_eq!((list.sets, list.flywheels), (1, of_a_set), "{kind}");
         assert!(!page.contains("twice"), "{page}");
         let to_each_side = chosen(&list, "rack", "travel to each side").unwrap();
@@ -86,10 +90,32 @@ fn a_device_at_the_base_corners_is_there_twice() {
     }
 }
 
+/// Runs know the block's travel against the ground, of which a support of its own motion may have far more.
+#[test]
+fn no_rack_is_chosen_on_a_support_of_its_own_motion() {
+    let of_rack = [("travel to each side", true), ("teeth", false), ("toothed length", false)];
+    for keys in ["support_frequency_hz = 5.0, support_damping_ratio = 0.05", "support_amplification = 1.2"] {
+        let (list, page) = designed(&pier("clutched-pair", keys, &[]));
+        for (quantity, is_known_of_the_block) in of_rack {
+            let found = item(&list, "rack", quantity).unwrap();
+            assert!(found.chosen.is_none() && found.needed.is_some() == is_known_of_the_block, "{found:?}");
+        }
+        let rim = item(&list, "flywheel, each", "stress at the rim").unwrap();
+        assert!(list.on_support && rim.margin.is_none() && chosen(&list, "support", "force").is_some());
+        assert!(page.contains("travel and speed of the rack and speed, energy and stress of its flywheels"), "{page}");
+        for untrue in ["Speed does not limit it", "teeth more than its travel", "J of heat"] {
+            assert!(!page.contains(untrue), "{page}");
+        }
+    }
+    let (list, page) = designed(&pier("clutched-pair", CENTRE, &[]));
+    assert!(of_rack.iter().all(|(quantity, _)| chosen(&list, "rack", quantity).is_some()) && page.contains("J of heat"));
+    assert!(!list.on_support && !page.contains("support of its own motion"), "{page}");
+}
+
 /// Plates that are late and slip let the block move otherwise than ideal clutches: sensors and coils have to do for both.
 #[test]
 fn sensors_and_coils_are_those_of_both_runs() {
-    let (list, _) = designed("clutched-pair", "mount = 'centre-of-mass'");
+    let (list, _) = designed(&pier("clutched-pair", CENTRE, &[]));
     let (built, asked) = (list.built.as_ref().unwrap(), list.asked[0].unwrap());
     let of_chosen = |largest: &Option<Largest>| largest.as_ref().unwrap().value;
     let mut larger = 0;
