@@ -67,6 +67,12 @@ pub struct Built {
     pub coils_engaged_s: Option<Largest>,
     /// Largest energy of both, J; null where the scene has no coil.
     pub coil_energy_j: Option<Largest>,
+    /// Largest coefficient of friction that the toe needs, impacts and jolts included.
+    pub friction_needed: Option<f64>,
+    /// Motions under which the toe would leave the ground.
+    pub contact_lost: usize,
+    /// Largest jump of the velocity of the centre of mass at an impact or a jolt, m/s.
+    pub jump_m_s: Option<Largest>,
 }
 
 /// What is known of a device before its lines are written.

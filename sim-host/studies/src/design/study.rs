@@ -76,11 +76,11 @@ pub struct PartsList {
     pub scene_capacity_n: Option<f64>,
     /// Sensors of a controller.
     pub sensors: Option<SensorClass>,
-    /// Largest coefficient of friction that the toe needs, impacts and jolts included.
+    /// Largest coefficient of friction that the toe needs, impacts and jolts included; that and the next two are those of both runs.
     pub friction_needed: Option<f64>,
     /// Motions under which the toe would leave the ground.
     pub contact_lost: usize,
-    /// Largest jump of the velocity of the centre of mass at an impact, m/s.
+    /// Largest jump of the velocity of the centre of mass at an impact or a jolt, m/s.
     pub jump: Option<Largest>,
     /// What it asks for under each motion.
     #[serde(skip)]
@@ -183,6 +183,7 @@ impl<'a> Problem<'a> {
         // Changed scenes have this device alone.
         let in_words = |error: SceneError| error.to_string().replacen("device.0.", &format!("device.{index}."), 1);
         let (mut delay, mut delay_unknown, mut built, mut built_unknown) = (None, None, None, None);
+        let mut with_chosen = Vec::new();
         if takes_commands {
             let undelayed: Vec<Option<Answer>> = asked.iter().map(|asked| asked.as_ref().map(answer)).collect();
             (work.begin)((DELAYS_S.len() + BISECTIONS) * motions.len());
@@ -199,6 +200,7 @@ impl<'a> Problem<'a> {
                 Ok(Some(subject)) => {
                     let found = work.asked(&subject.watched(coil), &format!("{device}, as chosen"), findings)?;
                     built = Some(compare(&chosen, delay.delay_s, (weight, coil.as_ref()), motions, (&asked, &found)));
+                    with_chosen = found;
                 }
                 Err(error) => built_unknown = Some(in_words(error)),
             }
@@ -231,7 +233,9 @@ impl<'a> Problem<'a> {
         };
         let sensors = sizing.sensors();
         let items = sizing.items(sensors.as_ref());
-        let followed = asked.iter().flatten();
+        let jump = largest(motions, &asked, |asked| Some(asked.jump));
+        let jump = jump.map(|jump| jump.or_larger(built.as_ref().and_then(|built| built.jump_m_s.as_ref())));
+        let lost = |motion: usize| [&asked, &with_chosen].into_iter().filter_map(|runs| runs.get(motion)).any(loses_contact);
         let named = motions.iter().zip(&asked).filter(|(_, asked)| overturned(asked));
         Ok(PartsList {
             sets,
@@ -239,7 +243,7 @@ impl<'a> Problem<'a> {
             inertance_kg,
             controlled: bare.is_controlled(),
             on_support,
-            motions: followed.clone().count(),
+            motions: asked.iter().flatten().count(),
             overturned_by: named.map(|(motion, _)| motion.name.clone()).collect(),
             largest_rotation: largest(motions, &asked, rotation),
             items,
@@ -251,9 +255,9 @@ impl<'a> Problem<'a> {
             built_unknown,
             scene_capacity_n,
             sensors,
-            friction_needed: followed.clone().filter_map(|asked| asked.friction_needed).reduce(f64::max),
-            contact_lost: followed.filter(|asked| asked.contact_lost).count(),
-            jump: largest(motions, &asked, |asked| Some(asked.jump)),
+            friction_needed: [friction_needed(&asked), friction_needed(&with_chosen)].into_iter().flatten().reduce(f64::max),
+            contact_lost: (0..motions.len()).filter(|&motion| lost(motion)).count(),
+            jump,
             asked,
             device,
         })
@@ -297,6 +301,14 @@ fn overturned(asked: &Option<Asked>) -> bool {
     asked.as_ref().is_some_and(|asked| asked.outcome.overturned())
 }
 
+fn loses_contact(asked: &Option<Asked>) -> bool {
+    asked.as_ref().is_some_and(|asked| asked.contact_lost)
+}
+
+fn friction_needed(asked: &[Option<Asked>]) -> Option<f64> {
+    asked.iter().flatten().filter_map(|asked| asked.friction_needed).reduce(f64::max)
+}
+
 /// Peak rotation, which has no instant.
 fn rotation(asked: &Asked) -> Option<Extreme<f64>> {
     asked.peak_rotation.map(|value| Extreme { value, time: f64::NAN })
@@ -330,5 +342,8 @@ fn compare(
         acceleration_m_s2: mine(&|asked| Some(asked.acceleration())),
         coils_engaged_s: mine(&Asked::coils_engaged_s),
         coil_energy_j: mine(&|asked| asked.coil_energy_j(coil)),
+        friction_needed: friction_needed(after),
+        contact_lost: after.iter().filter(|asked| loses_contact(asked)).count(),
+        jump_m_s: mine(&|asked| Some(asked.jump)),
     }
 }

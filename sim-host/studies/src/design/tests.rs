@@ -16,6 +16,7 @@ use super::page::page;
 use super::parts::Item;
 use super::study::{PartsList, Problem};
 use super::subject::Subject;
+use super::table::figures;
 use crate::sensitivity::motion::StudyMotion;
 
 const CORNERS: &str = "mount = 'base-corners', pulley_ratio = 3.0";
@@ -130,6 +131,19 @@ fn sensors_and_coils_are_those_of_both_runs() {
         larger += usize::from(item.chosen_clutches);
     }
     assert!(larger > 0, "the chosen clutches ask for more of one of them: {built:?}");
+}
+
+/// Without losses at impacts the toe needs most friction between them, where plates that are late pull harder than ideal clutches.
+#[test]
+fn friction_and_shock_are_those_of_both_runs() {
+    let (list, page) = designed(&pier("clutched-pair", CENTRE, &["device.0.mass_ratio=1.0", "block.restitution=1.0"]));
+    let (built, asked) = (list.built.as_ref().unwrap(), list.asked[0].unwrap());
+    let with_chosen = built.friction_needed.unwrap();
+    assert!(with_chosen > 1.1 * asked.friction_needed.unwrap(), "{built:?}");
+    assert!(list.friction_needed == Some(with_chosen) && page.contains(&figures(with_chosen)), "{page}");
+    let jump = built.jump_m_s.as_ref().unwrap();
+    assert_eq!(list.jump.as_ref().unwrap().value, jump.value.max(asked.jump.value));
+    assert!(jump.chosen_clutches && list.contact_lost >= built.contact_lost);
 }
 
 /// An impact that keeps all of θ̇ turns the velocity of the centre of mass from down to up: by 2 R sin α |θ̇|, and θ̇² = 2 p² (cos(α − θ₀) − cos α)
