@@ -101,8 +101,6 @@ pub struct Sizing<'a> {
     pub built: Option<&'a Built>,
     /// The support moves otherwise than the ground, so that nobody knows how the rack moves on it.
     pub on_support: bool,
-    /// The scene has a clutch of its own that slips, so that the chosen one was not tried.
-    pub slips: bool,
     /// The scene's coil.
     pub coil: Option<CoilTable>,
 }
@@ -152,8 +150,9 @@ impl Sizing<'_> {
             needed.as_ref().map(|needed| preferred(series, basis.margin * needed.value)).filter(|size| size.is_finite())
         };
         let chosen_travel = with_margin(&R20, &travel).filter(|_| !self.on_support);
-        // What slips later than the scene's clutch pulls with more than was needed here.
-        let slips_at = if self.slips { preferred(&R10, pinion.load_n) } else { 0.0 };
+        // A clutch that was not tried may pull with more than was needed here.
+        let slips = pinion.clutch_torque_n_m.is_some() && self.built.is_none();
+        let slips_at = if slips { preferred(&R10, pinion.load_n) } else { 0.0 };
         let chosen_support = with_margin(&R10, &support).map(|force| force.max(slips_at));
         list.sized("support", "force", "N", support.as_ref(), chosen_support);
         let (of_travel, sides) = if at_corners { ("travel upwards", 1.0) } else { ("travel to each side", 2.0) };

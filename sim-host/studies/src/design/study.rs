@@ -228,7 +228,6 @@ impl<'a> Problem<'a> {
             controlled: bare.is_controlled(),
             built: built.as_ref(),
             on_support,
-            slips: scene_capacity_n.is_some(),
             coil,
         };
         let sensors = sizing.sensors();

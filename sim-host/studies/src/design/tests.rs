@@ -133,6 +133,17 @@ fn sensors_and_coils_are_those_of_both_runs() {
     assert!(larger > 0, "the chosen clutches ask for more of one of them: {built:?}");
 }
 
+/// A service factor above 1 lets clutches slip later than anything was asked for: who buys a weaker support finds it broken first.
+#[test]
+fn a_support_bears_what_a_clutch_that_was_not_tried_passes_on() {
+    for keys in [CORNERS, "engagement = 'overrunning'", "clutch = { stiffness_ratio = 1e4 }"] {
+        let (list, _) = designed(&pier("clutched-pair", keys, &[]));
+        let support = item(&list, "support", "force").unwrap();
+        assert!(list.built.is_none() && support.needed.unwrap() < list.pinion.load_n, "{keys}: {support:?}");
+        assert!(support.chosen.unwrap() >= list.pinion.load_n, "{keys}: {support:?} {:?}", list.pinion);
+    }
+}
+
 /// Without losses at impacts the toe needs most friction between them, where plates that are late pull harder than ideal clutches.
 #[test]
 fn friction_and_shock_are_those_of_both_runs() {
