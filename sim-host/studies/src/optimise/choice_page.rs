@@ -305,7 +305,8 @@ fn what_limits(findings: &Findings, best: &Row) -> String {
 }
 
 /// What the study says nothing about, in a line each.
-fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
+pub(super) fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
+    let of_block = &choices.structure.scene.file.block;
     let mut lines = Vec::new();
     let unlimited: Vec<&str> =
         Quantity::ALL.into_iter().filter(|quantity| choices.limits.of(*quantity).is_none()).map(Quantity::name).collect();
@@ -313,7 +314,11 @@ fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
         lines.push(format!("No limit is set on: {}.", unlimited.join(", ")));
     }
     lines.push(match choices.table.robust {
-        None => "Block and device are as the scene says: no scatter of restitution, size or slenderness.".to_owned(),
+        None => {
+            let restitution =
+                if of_block.restitution_scatter.is_some_and(|deviation| deviation > 0.0) { "" } else { "restitution, " };
+            format!("Block and device are as the scene says: no scatter of {restitution}size or slenderness.")
+        }
         Some(_) => "Size, slenderness and mass ratio are as the scene says: none of them scatters.".to_owned(),
     });
     if let Some(device) = best.candidate.map(|at| &choices.curves[at.curve].device) {
@@ -324,7 +329,8 @@ fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
         lines.push("How late the clutches may be: optimise.delays_s asks for it.".to_owned());
     }
     lines.push("Records are horizontal: no vertical ground motion.".to_owned());
-    lines.push("The block rocks in its plane: it does not slide, twist, or move its foundation.".to_owned());
+    let moves = if of_block.foundation.is_some() { "slide or twist" } else { "slide, twist, or move its foundation" };
+    lines.push(format!("The block rocks in its plane: it does not {moves}."));
     lines
 }
 
@@ -332,12 +338,13 @@ fn not_looked_at(choices: &Choices<'_>, best: &Row) -> Vec<String> {
 fn left_out_of(device: &DeviceTable) -> Vec<String> {
     let mut lines = Vec::new();
     let pair = device.kind == Kind::ClutchedPair;
-    if pair && device.clutch.is_none() && device.engagement.unwrap_or_default() == EngagementName::Ideal {
+    let has_no_properties = device.clutch.is_none() && device.inertance_corner_hz.is_none();
+    if pair && has_no_properties && device.engagement.unwrap_or_default() == EngagementName::Ideal {
         lines.push(
             "The clutch is the paper's: it engages at once, without a shock, and its flywheel stops when it is released."
                 .to_owned(),
         );
-    } else if pair && device.clutch.is_none() {
+    } else if pair && has_no_properties {
         lines.push("The clutch is rigid: it does not slip and has no play.".to_owned());
     }
     if pair && device.actuation.is_none() && device.engagement != Some(EngagementName::Overrunning) {

@@ -7,7 +7,8 @@ use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::device::{Kind, MountName};
 use sprag_sim::scene::drivetrain::EngagementName;
 
-use super::design::Score;
+use super::choice_page::not_looked_at;
+use super::design::{Candidate, Score};
 use super::findings::{Findings, Fronts, Row};
 use super::problem::{Choices, Problem};
 use super::typed_tables::design_table;
@@ -195,6 +196,29 @@ fn means_are_shown_beside_means() {
     assert!(page.contains(&beside), "{beside}\n{page}");
     let page = super::page::page(&problem, &found).unwrap();
     assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
+}
+
+/// What the scene of a study has was looked at.
+#[test]
+fn the_choice_denies_nothing_that_its_scene_has() {
+    let lines = |set: &str| {
+        let study = study(&format!("[optimise]\nlaws = ['clutched pair']\n[[structure]]\nname = 'a'\nset = {{ {set} }}"));
+        let at = Candidate { curve: 0, mass_ratio: 0.5, delay_s: 0.0 };
+        let best = Row { candidate: Some(at), ..Row::of_score(&Score::default()) };
+        not_looked_at(&Choices::of(&study).unwrap(), &best).join("\n")
+    };
+    let denied = ["scatter of restitution, size or slenderness", "or move its foundation", "The clutch is the paper's"];
+    let plain = lines("'block.size_m' = 2.0");
+    assert!(denied.iter().all(|words| plain.contains(words)), "{plain}");
+    for (set, words, instead) in [
+        ("'block.restitution_scatter' = 0.02", denied[0], "no scatter of size or slenderness."),
+        ("'block.foundation' = { vertical_frequency_hz = 10.0, damping_ratio = 0.3 }", denied[1], "does not slide or twist."),
+        ("'device.2.inertance_corner_hz' = 4.0", denied[2], "obeys at once"),
+    ] {
+        let found = lines(set);
+        assert!(!found.contains(words) && found.contains(instead) && !found.contains("rigid"), "{set}: {found}");
+        assert!(denied.iter().filter(|other| **other != words).all(|other| found.contains(other)), "{set}: {found}");
+    }
 }
 
 #[test]
