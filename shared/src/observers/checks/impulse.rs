@@ -7,6 +7,9 @@ use crate::math::scalar::Real;
 use crate::motion::observer::Event;
 use crate::motion::state::{BlockState, Phase};
 
+/// Impulse across the base over that along it below which it is rounding.
+const OVER_TOE: f64 = 1e-9;
+
 /// State of the block just before an event.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Impulses<S> {
@@ -40,7 +43,9 @@ impl<S: Real> Impulses<S> {
                     return;
                 }
                 let [along, normal] = toe.jolt(state.side, state.rotation, jump);
-                if normal > S::ZERO {
+                // A block that stands over its toe is pushed along the base alone, and only rounding says whether it is pressed on it.
+                if normal.abs() <= along.abs() * S::of(OVER_TOE) {
+                } else if normal > S::ZERO {
                     Extreme::raise(&mut report.jolt_friction, along.abs() / normal, time);
                 } else {
                     Extreme::raise(&mut report.jolt_pull, -normal * toe.size, time);

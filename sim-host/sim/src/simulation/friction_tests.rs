@@ -179,9 +179,7 @@ fn a_turn_over_a_held_flywheel_is_a_turn_at_any_step() {
                 run = {{ free_time_ratio = 8 }}
                 accuracy = {{ {accuracy} }}"
             );
-            let scene = Scene::parse(&text, "scene").unwrap();
-            let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
-            run.peak_rotation.unwrap()
+            runs_of(&text).remove(0).peak_rotation.unwrap()
         };
         let found = peak("");
         for accuracy in ["tolerance = 1e-12", "tolerance = 1e-17"] {
