@@ -53,7 +53,8 @@ class Accuracy(Table):
         Size of the last terms of the series over the rotation that matters; from 1e-20 to 0.01; 1e-15 by
         default.
     step_s
-        Fixed step, divided where viscous forces need shorter ones; or give step_ratio; from 1e-07 to 1.
+        Fixed step, divided where viscous forces or springs of clutches need shorter ones; or give step_ratio;
+        from 1e-07 to 1.
     step_ratio
         Fixed step, in 1/p; or give step_s; from 1e-07 to 1.
 

@@ -102,7 +102,7 @@ pub struct AccuracyTable {
     #[serde(default = "tight")]
     #[schemars(range(min = 1e-20, max = 1e-2))]
     pub tolerance: f64,
-    /// Fixed step, divided where viscous forces need shorter ones; or give `step_ratio`.
+    /// Fixed step, divided where viscous forces or springs of clutches need shorter ones; or give `step_ratio`.
     #[schemars(range(min = 1e-7, max = 1.0))]
     pub step_s: Option<f64>,
     /// Fixed step, in 1/p; or give `step_s`.
