@@ -116,7 +116,8 @@ fn a_panic_reports_where_and_a_hard_fault_too() {
             format!("reports {file}, line {}", started.place)
         } else {
             assert!((0x0800_0000..0x0810_0000).contains(&started.place), "{:#x}", started.place);
-            format!("reports the address {:#010x}", started.place)
+            // Not which: another image has another one.
+            "reports its address".to_owned()
         };
         row(
             &format!("{cause:?} in mid-swing"),
