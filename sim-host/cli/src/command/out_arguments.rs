@@ -29,7 +29,7 @@ pub struct OutputArguments {
     /// What may be replaced in it.
     #[command(flatten)]
     pub replace: OverwriteArguments,
-    /// Formats of tables (csv, parquet) and pictures (svg, png), separated by commas; csv is always among them. By default csv,svg, and all four
+    /// Formats of tables (csv, parquet) and pictures (svg, png), separated by commas; csv must be among them. By default csv,svg, and all four
     /// of `map`, `cloud` and `optimise`.
     #[arg(long, value_name = "LIST")]
     pub formats: Option<Formats>,
