@@ -98,10 +98,10 @@ impl Run for SynthesizeArguments {
             intensity.pga_m_s2 / STANDARD_GRAVITY_M_S2,
             intensity.pgv_m_s
         );
-        if is_standard_output(&self.out) {
-            context.note(line)
-        } else {
-            context.print(line + "\n")
+        if !is_standard_output(&self.out) {
+            context.print(line + "\n");
+        } else if !context.quiet {
+            context.note(line);
         }
         Ok(Completion::Complete)
     }

@@ -125,6 +125,8 @@ fn standard_output_takes_a_result() {
     let plain = fs::read(&motion).unwrap();
     let piped = sprag(&["synthesize", "--out", "/dev/stdout"]);
     assert!(piped.stdout == plain && said(&piped).contains("samples"), "{}", said(&piped));
+    let quiet = sprag(&["synthesize", "--out", "-", "--quiet"]);
+    assert!(quiet.stdout == plain && said(&quiet).is_empty(), "{}", said(&quiet));
     let redirected = folder.path().join("redirected.csv");
     let file = fs::File::create(&redirected).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
