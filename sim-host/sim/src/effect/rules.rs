@@ -196,10 +196,15 @@ pub(super) fn impact(subject: &Subject<'_>) -> Vec<String> {
         };
         lines.extend(at_impact.map(|text| format!("at an impact {text}")));
     }
-    let losses = &drivetrain.flywheel;
-    if drivetrain.rack.dry_ratio != 0.0 || losses.dry_deceleration != 0.0 {
-        lines.push("dry friction of rack and bearings may hold the block where its velocity is 0".to_owned());
-    }
+    // Bearings hold by a flywheel that sticks to the rack, which none behind a spring or a dashpot does.
+    let sticks = !matches!(drivetrain.engagement, Engagement::Elastic { .. } | Engagement::Viscous { .. });
+    let of = match (drivetrain.rack.dry_ratio != 0.0, sticks && drivetrain.flywheel.dry_deceleration != 0.0) {
+        (true, true) => Some("rack and bearings"),
+        (true, false) => Some("the rack"),
+        (false, true) => Some("bearings"),
+        (false, false) => None,
+    };
+    lines.extend(of.map(|of| format!("dry friction of {of} may hold the block where its velocity is 0")));
     lines.push("rest: where impacts accumulate while the ground stays below the uplift threshold".to_owned());
     lines
 }

@@ -132,3 +132,30 @@ fn an_uplift_names_the_friction_that_holds_the_block() {
         assert!(!uplift(&[free]).contains(" + "), "{free}");
     }
 }
+
+#[test]
+fn bearings_hold_a_block_by_a_flywheel_that_sticks() {
+    let near_fault = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/near_fault.toml"));
+    let held_by = |device: usize, settings: &[&str]| {
+        let settings: Vec<String> = settings.iter().map(|setting| format!("device.{device}.{setting}")).collect();
+        let text = text_of(&Explanation::of(&Scene::load(near_fault, &settings).unwrap(), device));
+        let line = text.lines().find_map(|line| line.split_once(" may hold the block"));
+        line.map(|(before, _)| before.to_owned())
+    };
+    let [bearings, rack] = ["flywheel.dry_deceleration_m_s2=0.05", "rack.dry_friction_ratio=0.01"];
+    let slips = "inertance_corner_hz=4";
+    let springs = "clutch.stiffness_ratio=1e3";
+    for (device, settings, held) in [
+        (1, &[bearings][..], Some("bearings")),
+        (1, &[], None),
+        (1, &[bearings, slips], None),
+        (1, &[bearings, rack, slips], Some("the rack")),
+        (2, &[bearings, "engagement=\"rigid\"", rack], Some("rack and bearings")),
+        (2, &[bearings, slips], None),
+        (2, &[bearings, springs], None),
+        (2, &[bearings, rack, springs], Some("the rack")),
+    ] {
+        let expected = held.map(|of| format!("dry friction of {of}"));
+        assert_eq!(held_by(device, settings), expected, "{device} {settings:?}");
+    }
+}
