@@ -195,7 +195,7 @@ fn sample(
         in_turn(pool, (some, 1), |numbers| specimens(&desk, index, numbers, interrupt), |_| Ok(()))?;
     }
     let each = start.elapsed().as_secs_f64() / some as f64;
-    let errors = reports.iter().filter_map(|report| Some(report.summary.error?.estimate.relative(report.summary.peak_rotation)));
-    let error = errors.fold(0.0, f64::max);
+    let errors = reports.iter().filter_map(|report| report.summary.error?.estimate.of_peak(report.summary.peak_rotation));
+    let error = errors.reduce(f64::max);
     Ok(budget::Sample { seconds: loops.as_secs_f64() + count.get() as f64 * each, error, of: "the loop itself" })
 }

@@ -94,6 +94,18 @@ fn batch_gives_errors_beside_its_results_and_without_them_the_columns_of_old() {
 }
 
 #[test]
+fn a_time_budget_promises_no_error_where_every_block_overturns() {
+    let folder = tempfile::tempdir().unwrap();
+    let (cases, out) = (folder.path().join("cases.csv"), folder.path().join("out.csv"));
+    fs::write(&cases, format!("{HEADER}one,full,15,none,0,0.85,sine,1,20,20\n")).unwrap();
+    let output = sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--time-budget", "3600"]);
+    let line = said(&output);
+    assert!(output.status.success() && fs::read_to_string(&out).unwrap().contains("one,overturned"), "{line}");
+    assert!(line.contains("--accuracy tight takes some") && line.contains("no peak has an error"), "{line}");
+    assert!(!line.contains("relative error"), "{line}");
+}
+
+#[test]
 fn too_little_time_is_said_with_what_it_affords() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (folder.path().join("cases.csv"), folder.path().join("out.csv"));

@@ -80,8 +80,8 @@ pub struct Plan {
     pub accuracy: Accuracy,
     /// How long all of the work is likely to take, s.
     pub seconds: f64,
-    /// The relative error of the peak rotation that [`Plan::of`] stays below.
-    pub error: f64,
+    /// The relative error of the peak rotation that [`Plan::of`] stays below, unless no block rocks and stands.
+    pub error: Option<f64>,
     /// What of the work the error is of.
     pub of: &'static str,
 }
@@ -91,19 +91,27 @@ pub struct Plan {
 pub struct Sample {
     /// How long all of the work is likely to take, s.
     pub seconds: f64,
-    /// The relative error of the peak rotation that [`Sample::of`] stays below.
-    pub error: f64,
+    /// The relative error of the peak rotation that [`Sample::of`] stays below, unless no block rocks and stands.
+    pub error: Option<f64>,
     /// What of the work the error is of.
     pub of: &'static str,
 }
 
 impl std::fmt::Display for Plan {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(
-            formatter,
-            "--accuracy {} affords a relative error below {:.1e} for {} in some {:.2} s",
-            self.accuracy, self.error, self.of, self.seconds
-        )
+        let Plan { accuracy, seconds, error, of } = self;
+        match error {
+            Some(error) => {
+                write!(
+                    formatter,
+                    "--accuracy {accuracy} affords a relative error below {error:.1e} for {of} in some {seconds:.2} s"
+                )
+            }
+            None => write!(
+                formatter,
+                "--accuracy {accuracy} takes some {seconds:.2} s; no block that was tried rocks and stands, so that no peak has an error"
+            ),
+        }
     }
 }
 
@@ -212,7 +220,7 @@ mod tests {
     /// 1, 2 and 3 s for the levels, 2.5 s for anything else.
     fn cost(accuracy: Accuracy) -> Result<Plan, TooLittleTime> {
         let seconds = Accuracy::LEVELS.iter().position(|level| *level == accuracy).map_or(2.5, |index| 1.0 + index as f64);
-        Ok(Plan { accuracy, seconds, error: accuracy.tolerance(), of: "all" })
+        Ok(Plan { accuracy, seconds, error: Some(accuracy.tolerance()), of: "all" })
     }
 
     #[test]
@@ -234,6 +242,15 @@ mod tests {
         assert_eq!(choose(10.0, None, cost).unwrap().accuracy, Accuracy::Tight);
         assert_eq!(choose(2.2, None, cost).unwrap().accuracy, Accuracy::Normal);
         assert_eq!(choose(2.7, Some(Accuracy::Error(1e-11)), cost).unwrap().accuracy, Accuracy::Error(1e-11));
+    }
+
+    #[test]
+    fn where_no_peak_has_an_error_none_is_promised() {
+        let plan = cost(Accuracy::Fast).unwrap();
+        assert!(plan.to_string().contains("a relative error below"), "{plan}");
+        let plan = Plan { error: None, ..plan };
+        let line = plan.to_string();
+        assert!(line.starts_with("--accuracy fast takes some 1.00 s; ") && !line.contains("below"), "{line}");
     }
 
     #[test]

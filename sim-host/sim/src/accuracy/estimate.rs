@@ -105,13 +105,17 @@ impl ErrorEstimate {
         self.outcome_certain &= found.ends_like(other);
     }
 
-    /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt.
+    /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt, 0 where no peak has an error.
     pub fn relative(&self, peak: Option<f64>) -> f64 {
-        match peak {
-            _ if !self.outcome_certain => f64::INFINITY,
-            Some(peak) if peak != 0.0 => self.peak_rotation / peak.abs(),
-            _ => 0.0,
+        self.of_peak(peak).unwrap_or(0.0)
+    }
+
+    /// The same; none of a block that overturns or does not rock.
+    pub fn of_peak(&self, peak: Option<f64>) -> Option<f64> {
+        if !self.outcome_certain {
+            return Some(f64::INFINITY);
         }
+        peak.filter(|&peak| peak != 0.0).map(|peak| self.peak_rotation / peak.abs())
     }
 }
 
@@ -138,6 +142,16 @@ mod tests {
         let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.5), ended(2, 0.5)], Checks::Closer(1e-9));
         assert!(!estimate.outcome_certain);
         assert_eq!(estimate.relative(Some(0.5)), f64::INFINITY);
+        assert_eq!(estimate.of_peak(None), Some(f64::INFINITY));
+    }
+
+    #[test]
+    fn a_block_that_overturns_or_does_not_rock_has_no_error() {
+        let estimate = ErrorEstimate::of(&ended(1, 0.5), &[ended(1, 0.5)], Checks::AsClose);
+        assert!(estimate.of_peak(Some(0.5)).is_some_and(|error| error > 0.0));
+        for peak in [None, Some(0.0)] {
+            assert_eq!((estimate.of_peak(peak), estimate.relative(peak)), (None, 0.0));
+        }
     }
 
     #[test]
