@@ -103,6 +103,10 @@ impl<S: Real> GroundSegment<S> for AnySegment<S> {
         each!(self, segment => segment.curvature_bound_from(time))
     }
 
+    fn angular_frequency(&self) -> S {
+        each!(self, segment => segment.angular_frequency())
+    }
+
     fn series(&self, time: S, coefficients: &mut [S]) {
         each!(self, segment => segment.series(time, coefficients));
     }

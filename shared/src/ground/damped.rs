@@ -73,6 +73,10 @@ impl<S: Real> GroundSegment<S> for DampedOscillation<S> {
         (-(self.decay * time)).exp() * self.curvature_bound()
     }
 
+    fn angular_frequency(&self) -> S {
+        self.frequency + self.decay
+    }
+
     fn series(&self, time: S, coefficients: &mut [S]) {
         let mut term = self.turned(time);
         for (k, slot) in coefficients.iter_mut().enumerate() {

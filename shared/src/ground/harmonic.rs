@@ -126,6 +126,10 @@ impl<S: Real, const M: usize> GroundSegment<S> for Harmonics<S, M> {
         self.terms.iter().fold(S::ZERO, |sum, term| sum + term.amplitude.abs() * (term.frequency * term.frequency))
     }
 
+    fn angular_frequency(&self) -> S {
+        self.terms.iter().fold(S::ZERO, |fastest, term| fastest.larger(term.frequency))
+    }
+
     fn series(&self, time: S, coefficients: &mut [S]) {
         coefficients.fill(S::ZERO);
         for term in &self.terms {

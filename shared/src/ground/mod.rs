@@ -40,6 +40,11 @@ pub trait GroundSegment<S: Real> {
         self.curvature_bound()
     }
 
+    /// Largest angular frequency of its waves, rad/s; 0 for straight lines.
+    fn angular_frequency(&self) -> S {
+        S::ZERO
+    }
+
     /// Taylor coefficients of ü_g/g about τ, as many as `coefficients` holds.
     fn series(&self, time: S, coefficients: &mut [S]);
 

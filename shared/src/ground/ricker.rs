@@ -52,6 +52,11 @@ impl<S: Real> GroundSegment<S> for Ricker<S> {
         S::of(6.0) * self.amplitude.abs() * (self.rate * self.rate)
     }
 
+    fn angular_frequency(&self) -> S {
+        // At its crest, A(1 − 3x²), it is as curved as a wave of √6 times its rate.
+        S::of(2.45) * self.rate
+    }
+
     fn series(&self, time: S, coefficients: &mut [S]) {
         // (1 − 2x²)e^{−x²} = −½ G''(x) with G = e^{−x²}. About x₀, G' = −2xG gives for the coefficients of G in x
         // (k+1) g_{k+1} = −2 (x₀ g_k + g_{k−1}), and −½ G'' has the coefficients −½ (k+1)(k+2) g_{k+2}.

@@ -37,6 +37,12 @@ pub trait DeviceOutput<S: Real> {
     /// Block and device at `time` after the start of the step.
     fn snapshot(&self, time: S) -> Snapshot<S>;
 
+    /// Into how many equal pieces an observer is to cut the step, so that between three looks at a piece no force does more than bend; 1 for the
+    /// steps of a method, which are short enough.
+    fn pieces(&self) -> u32 {
+        1
+    }
+
     /// Displacement of the base over the ground at `time` after the start of the step, m; 0 where it cannot slide.
     fn displacement(&self, _time: S) -> S {
         S::ZERO

@@ -53,7 +53,9 @@ impl<S: Real> HybridSystem<S> {
         let length = self.until_stop(state, whole);
         let (until, end) = if length < whole { (time + length, None) } else { (until, end) };
         if until > time {
-            self.show_still(state, &|t| (shaking.at(time + t), S::ZERO), time, until - time, observer);
+            // What holds the block follows every wave of the ground.
+            let span = (until - time, shaking.pieces(until - time));
+            self.show_still(state, &|t| (shaking.at(time + t), S::ZERO), time, span, observer);
         }
         // A stop within rounding of now still stops a flywheel.
         self.idle(state, length);

@@ -36,6 +36,13 @@ impl<'a, S: Real> Shaking<'a, S> {
         let value = |segment: Option<&dyn GroundSegment<S>>| segment.map_or(S::ZERO, |segment| segment.acceleration(time));
         [self.horizontal.acceleration(time), value(self.vertical), value(self.support)]
     }
+
+    /// Into how many equal pieces to cut `time` (s), so that none lasts longer than a radian of the fastest wave.
+    pub(super) fn pieces(&self, time: S) -> u32 {
+        let segments = [Some(self.horizontal), self.vertical, self.support].into_iter().flatten();
+        let fastest = segments.fold(S::ZERO, |fastest, segment| fastest.larger(segment.angular_frequency()));
+        ((fastest * time).to_f64() as u32).saturating_add(1)
+    }
 }
 
 /// Start of a step: state, mode and ground motion.

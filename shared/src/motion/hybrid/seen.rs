@@ -40,6 +40,8 @@ pub(super) struct Still<'a, S> {
     /// The accelerations a time (s) after the start, and what the support's speed has gained until then.
     pub(super) ground: &'a dyn Fn(S) -> (Accelerations<S>, S),
     pub(super) length: S,
+    /// [`DeviceOutput::pieces`].
+    pub(super) pieces: u32,
 }
 
 impl<S: Real> DenseOutput<S> for Still<'_, S> {
@@ -67,5 +69,9 @@ impl<S: Real> DeviceOutput<S> for Still<'_, S> {
         }
         let place = Place { ground, ..self.machine.place(&state) };
         self.machine.snapshot(&self.machine.law(&state), &state, &place, S::ZERO)
+    }
+
+    fn pieces(&self) -> u32 {
+        self.pieces
     }
 }

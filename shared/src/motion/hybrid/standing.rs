@@ -66,17 +66,17 @@ impl<S: Real> HybridSystem<S> {
 
     /// Observation of block and device between two changes at one instant.
     pub(super) fn show_instant(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
-        self.show_still(state, &|_| (state.ground, S::ZERO), time, S::ZERO, observer);
+        self.show_still(state, &|_| (state.ground, S::ZERO), time, (S::ZERO, 1), observer);
     }
 
-    /// Observation of a block that does not move, from `time` on for `length` (s), and of its device.
+    /// Observation of a block that does not move, from `time` on for `length` (s) in so many `pieces`, and of its device.
     #[inline(never)]
     pub(super) fn show_still(
         &self,
         state: &HybridState<S>,
         ground: &dyn Fn(S) -> (Accelerations<S>, S),
         time: S,
-        length: S,
+        (length, pieces): (S, u32),
         observer: &mut dyn Observer<S>,
     ) {
         let BlockState { rotation, velocity, side, direction, .. } = state.motion;
@@ -84,7 +84,7 @@ impl<S: Real> HybridSystem<S> {
         let engaged = state.device.wheels.iter().any(|wheel| wheel.coupling.is_engaged());
         let interval =
             MonotoneInterval { start: time, from: S::ZERO, to: length, first: still, last: still, engaged, side, direction };
-        let output = Still { machine: self, state, ground, length };
+        let output = Still { machine: self, state, ground, length, pieces };
         if rotation == S::ZERO || length == S::ZERO {
             observer.device_at_rest(&output, &interval);
         } else {
@@ -126,7 +126,7 @@ impl<S: Real> HybridSystem<S> {
                 // A piece that the clock does not resolve would have no end.
                 let length = if now + piece > now { piece } else { end - now };
                 let ground = |t: S| (shaking.at(now + t), self.support_gain(&shown, shaking, now, now + t));
-                self.show_still(&shown, &ground, now, length, observer);
+                self.show_still(&shown, &ground, now, (length, 1), observer);
                 self.idle(&mut shown, length);
                 self.carry(&mut shown, shaking, now, now + length);
                 now = now + length;

@@ -138,9 +138,9 @@ impl<S: Real> Checks<S> {
         up_to_it.report
     }
 
-    /// Whether an interval may hold a new record of the force on the support. A step follows at most half a swing of a stiff clutch, so
-    /// that of three looks one shows more than half of what lies between; and where a parabola through them also meets a fourth, no
-    /// more lies between than they and its curvature show.
+    /// Whether an interval may hold a new record of the force on the support. It is a step, which follows at most half a swing of a stiff
+    /// clutch, or a piece of one ([`DeviceOutput::pieces`]), so that of three looks one shows more than half of what lies between; and where a
+    /// parabola through them also meets a fourth, no more lies between than they and its curvature show.
     fn may_press_harder(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> bool {
         let presses = interval.engaged || self.drags;
         let Some(record) = self.report.support.filter(|_| presses) else { return presses };
@@ -161,8 +161,14 @@ impl<S: Real> Checks<S> {
     }
 
     fn look(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        if self.first < SUPPORT || self.may_press_harder(output, interval) {
-            self.watch(output, interval);
+        let pieces = output.pieces();
+        let length = (interval.to - interval.from) / S::count(pieces);
+        let end = |i: u32| if i == pieces { interval.to } else { interval.from + S::count(i) * length };
+        for i in 0..pieces {
+            let piece = MonotoneInterval { from: end(i), to: end(i + 1), ..*interval };
+            if self.first < SUPPORT || self.may_press_harder(output, &piece) {
+                self.watch(output, &piece);
+            }
         }
         if self.travels {
             self.follow_terminals(interval);

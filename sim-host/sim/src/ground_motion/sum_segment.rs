@@ -113,6 +113,15 @@ impl<S: Real> GroundSegment<S> for SumSegment<S> {
         }
     }
 
+    fn angular_frequency(&self) -> S {
+        match self {
+            SumSegment::Single(segment) => segment.angular_frequency(),
+            SumSegment::Several(parts) => {
+                parts.iter().fold(S::ZERO, |fastest, (_, part)| fastest.larger(part.angular_frequency()))
+            }
+        }
+    }
+
     #[inline]
     fn series(&self, time: S, coefficients: &mut [S]) {
         let parts = match self {

@@ -1,5 +1,6 @@
+use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::structure::block::Geometry;
+use sprag_shared::structure::block::{GRAVITY, Geometry};
 
 use super::*;
 use crate::interrupt::Interrupt;
@@ -112,6 +113,38 @@ fn a_block_that_slides_before_it_rocks_is_warned_of() {
     let rocks = runs(1.01, "kind = 'inerter'", "[checks]\nfriction_coefficient = 0.08").remove(0);
     assert!(rocks.checks.unwrap().friction_needed.unwrap() >= threshold - 1e-9);
     assert_eq!(runs(0.5, "kind = 'inerter'", "[checks]").remove(0).checks.unwrap().friction_needed, None);
+}
+
+/// A block of 2 m and 10° that friction of `device` holds at `rotation_ratio` of α under `ground`.
+fn held(rotation_ratio: f64, device: &str, ground: &str, more: &str) -> DeviceRun {
+    let text = format!(
+        "[block]\nsize_m = 2\nslenderness_deg = 10\ninitial_rotation_ratio = {rotation_ratio}\n[[device]]\nkind = 'inerter'\n{device}\n\
+         [[ground]]\n{ground}\nstart_s = 1\n[run]\nfree_time_s = 1\n[output]\ninterval_s = 0.002\n{more}"
+    );
+    let scene = Scene::parse(&text, "scene.toml").unwrap();
+    let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+    let held = rotation_ratio * 10_f64.to_radians();
+    assert!(run.history.samples.iter().all(|sample| (sample.rotation_rad - held).abs() < 1e-12), "it moved");
+    run
+}
+
+/// While bearings hold a block the support takes tan δ + ü_g/g at the centre of mass, however many waves the ground has until it moves on.
+#[test]
+fn a_held_block_pushes_hardest_at_the_crest_of_any_wave() {
+    let device = "mass_ratio = 1\nflywheel = { dry_deceleration_m_s2 = 3 }";
+    for ground in [
+        "motion = 'sine'\namplitude_g = 0.28\nfrequency_hz = 0.5",
+        "motion = 'mavroeidis-papageorgiou'\nvelocity_amplitude_m_s = 0.25\nfrequency_hz = 1.3\noscillations = 90\nphase_deg = 30",
+        "motion = 'ricker'\namplitude_g = 0.28\nfrequency_hz = 3",
+    ] {
+        for more in ["", "[checks]"] {
+            let run = held(0.95, device, ground, more);
+            let crest = run.history.samples.iter().map(|sample| sample.ground_m_s2).fold(0.0, f64::max);
+            let expected = math::tan(0.05 * 10_f64.to_radians()) + crest / GRAVITY;
+            let force = run.peak_force_ratio.unwrap();
+            assert!(force > expected - 1e-12 && force < expected + 2e-4, "{ground}, {more}: {force} {expected}");
+        }
+    }
 }
 
 #[test]
