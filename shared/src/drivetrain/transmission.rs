@@ -208,7 +208,7 @@ pub struct Spent<S> {
 pub struct Account<S> {
     /// Force of each flywheel on the rack, positive where it resists positive motion; F/(λmR), 1/s².
     pub force: [S; 2],
-    /// Friction and inertia of the rack itself, the same way.
+    /// Friction and inertia of the rack itself, the same way; from a transmission, without the dry friction of a rack that stands.
     pub rack_force: S,
     /// Whether each flywheel is coupled.
     pub engaged: [bool; 2],

@@ -88,16 +88,29 @@ impl<S: Real> HybridSystem<S> {
         self.breakaway(&self.standing(state, S::ZERO, &mut ()), side, side).opposite()
     }
 
-    /// Static forces of the flywheels that hold a block, in `account` in the place of their largest: of the dry friction that rack and flywheels
-    /// have, each gives the share that the moment balance needs. The weight of a block on its base needs none.
+    /// Dry friction of the rack at θ̇ = 0, which `account` leaves out: all of it where the block turns or starts, the static share where it is held.
     #[inline(never)]
-    pub(super) fn share_out(
+    pub(super) fn hold_rack(
         &self,
         state: &HybridState<S>,
         law: &ModeCoefficients<S>,
         ground: Accelerations<S>,
         account: &mut Account<S>,
     ) {
+        let share = if state.held { self.share_out(state, law, ground, account) } else { law.direction };
+        account.rack_force = account.rack_force + share * self.transmission.parameters.rack_dry;
+    }
+
+    /// Static forces of the flywheels that hold a block, in `account` in the place of their largest: of the dry friction that rack and flywheels
+    /// have, each gives the share that the moment balance needs, which is returned with the sign of what it resists. The weight of a block on its
+    /// base needs none.
+    fn share_out(
+        &self,
+        state: &HybridState<S>,
+        law: &ModeCoefficients<S>,
+        ground: Accelerations<S>,
+        account: &mut Account<S>,
+    ) -> S {
         let side = state.motion.side;
         let parameters = &self.transmission.parameters;
         // What would move the block towards `sign` without friction, over what friction there is.
@@ -124,6 +137,7 @@ impl<S: Real> HybridSystem<S> {
         let less = forces[0] + forces[1] - (account.force[0] + account.force[1]);
         account.rack_force = account.rack_force + parameters.load_share(&state.device) * less;
         account.force = forces;
+        sign.times(share)
     }
 
     /// A flywheel has come to a stop; what acts on it decides which way it continues, if at all.

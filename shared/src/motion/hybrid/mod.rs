@@ -467,8 +467,8 @@ impl<S: Real> HybridSystem<S> {
         let side = state.motion.side;
         let point = self.point(law, side, at);
         let mut device = self.transmission.account(&point, acceleration, &state.device);
-        if state.held && at.velocity == S::ZERO {
-            self.share_out(state, law, at.ground, &mut device);
+        if state.motion.phase == Phase::Rocking && at.velocity == S::ZERO {
+            self.hold_rack(state, law, at.ground, &mut device);
         }
         let parameters = &self.transmission.parameters;
         // What load friction adds to the coupling is friction.

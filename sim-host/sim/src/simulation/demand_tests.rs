@@ -147,6 +147,21 @@ fn a_held_block_pushes_hardest_at_the_crest_of_any_wave() {
     }
 }
 
+/// What holds a block at its centre of mass leaves the toe a reaction through that point: it needs a friction of tan δ, whether bearings or the
+/// guides of the rack hold it, alone or both.
+#[test]
+fn a_held_block_needs_the_friction_of_its_tilt() {
+    let ground = "motion = 'sine'\namplitude_g = 0.2\nfrequency_hz = 0.5";
+    let expected = math::tan(0.1 * 10_f64.to_radians());
+    for (rack, bearings) in [(0.3, 0.0), (0.0, 30.0), (0.2, 10.0)] {
+        let device = format!(
+            "mass_ratio = 0.1\nrack = {{ dry_friction_ratio = {rack} }}\nflywheel = {{ dry_deceleration_m_s2 = {bearings} }}"
+        );
+        let needed = held(0.9, &device, ground, "[checks]").checks.unwrap().friction_needed.unwrap();
+        assert!((needed - expected).abs() < 1e-9, "{rack}, {bearings}: {needed} {expected}");
+    }
+}
+
 #[test]
 fn a_study_does_not_pay_for_what_it_does_not_report() {
     let scene = scene(5.0, "kind = 'inerter'", "");

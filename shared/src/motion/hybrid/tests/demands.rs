@@ -201,3 +201,25 @@ fn a_jolt_needs_more_friction_than_there_is() {
     let found = watchers.0.report.jolt_friction.unwrap().value;
     assert!(expected > 0.94 && (found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
 }
+
+/// Dry friction of the rack has the size at a turn and as the block starts that it has just after.
+#[test]
+fn a_rack_rubs_at_a_turn_as_beside_it() {
+    #[derive(Default)]
+    struct Starts(u32);
+    impl Observer<f64> for Starts {
+        fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            let length = interval.to - interval.from;
+            if interval.first.velocity == 0.0 && length > 1e-6 {
+                let [at, beside] = [0.0, 1e-7].map(|share| output.snapshot(interval.from + share * length).device.rack_force);
+                assert!((at - beside).abs() < 1e-4, "{at} {beside}");
+                self.0 += u32::from(at.abs() > 0.1);
+            }
+        }
+    }
+    let shake = pair(Geometry::Full, 3.0, 9.0);
+    let mut starts = Starts::default();
+    let rack = Rack { dry_ratio: 0.1, ..Rack::default() };
+    shake.watched(&Drivetrain { rack, ..Drivetrain::default() }, &tight(), &mut starts);
+    assert!(starts.0 > 1, "{}", starts.0);
+}
