@@ -148,3 +148,15 @@ pub struct Limits<S> {
     /// Events that one call may follow.
     pub events: u32,
 }
+
+/// Relative distance from [`Limits::overturned`] within which a motion is at its end.
+const AT_THE_END: f64 = 1e-9;
+
+impl<S: Real> Limits<S> {
+    /// Whether a motion ends at θ = `rotation` (rad), or within rounding beyond: where a lever is zero there, rounding would decide whether its
+    /// clutch switches just before.
+    pub(super) fn ends_at(&self, rotation: S) -> bool {
+        let margin = S::of(AT_THE_END).larger(S::of(16.0) * S::EPSILON);
+        rotation.abs() >= self.overturned * (S::ONE - margin)
+    }
+}

@@ -277,11 +277,11 @@ impl<S: Real> HybridSystem<S> {
         if let Some(turn) = turn {
             (until, end) = (turn, End::Turn);
         }
-        for guard in 0..traits.guards {
-            if guarded
-                && signs_change
-                && law.watch[guard] != Guard::Nothing
+        let guards = if guarded && signs_change { traits.guards } else { 0 };
+        for guard in 0..guards {
+            if law.watch[guard] != Guard::Nothing
                 && let Some(zero) = output.guard_zero(guard, until, state.fresh[guard])
+                && !limits.ends_at(output.at(zero).rotation)
             {
                 (until, end) = (zero, End::Guard(guard));
             }

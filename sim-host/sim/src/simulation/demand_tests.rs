@@ -162,6 +162,27 @@ fn a_held_block_needs_the_friction_of_its_tilt() {
     }
 }
 
+/// The lever of a pair at the base's corners is zero where a block has fallen to π/2: rounding does not decide whether a clutch closes just before.
+#[test]
+fn a_lever_that_ends_at_zero_closes_no_clutch() {
+    for losses in ["", "flywheel = { viscous_rate_1_s = 1e-6 }"] {
+        let text = format!(
+            "[block]\nsize_m = 0.367\nslenderness_deg = 9.164\ninertia_ratio = 1.664\nrestitution = 'geometric'\n[run]\nfree_time_ratio = 11.3\n\
+             [[device]]\nkind = 'clutched-pair'\nmass_ratio = 0.431\nmount = 'base-corners'\npulley_ratio = 3.987\nkinematics = 'consistent'\n\
+             {losses}\n[[ground]]\nmotion = 'rectangular'\namplitude_ratio = 5.59\nduration_ratio = 1.862\n"
+        );
+        let [close, others @ ..] = ["1e-16", "1e-15", "1e-14", "1e-13"].map(|tolerance| {
+            let scene = Scene::parse(&format!("{text}[accuracy]\ntolerance = {tolerance}"), "scene.toml").unwrap();
+            let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+            (run.peak_force_ratio.unwrap(), run.clutch_switches)
+        });
+        for (force, switches) in others {
+            assert!((force / close.0 - 1.0).abs() < 1e-9 && switches == close.1, "{losses}: {force} {switches} {close:?}");
+        }
+        assert!(close.0 < 0.21, "{close:?}");
+    }
+}
+
 #[test]
 fn a_study_does_not_pay_for_what_it_does_not_report() {
     let scene = scene(5.0, "kind = 'inerter'", "");
