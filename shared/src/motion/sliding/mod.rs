@@ -30,7 +30,7 @@ const MOST_TURNABOUTS: u32 = 4;
 /// Roundings of a step that a step must last to count as one.
 const PROGRESS: f64 = 1024.0;
 
-/// Events at one instant after which the block stays as it is for a step.
+/// Events at one instant after which the block comes to rest, or stays as it is for a step.
 const MOST_AT_ONCE: u32 = 12;
 
 /// A block on a base with Coulomb friction.
@@ -152,7 +152,11 @@ impl<S: Real> SlidingSystem<S> {
             }
             let stop = next_stop(&mut tick, step, time, duration);
             if at_once > MOST_AT_ONCE {
-                time = stop;
+                if self.ends_its_bounces(state, ground, (time, stop), observer) {
+                    at_once = 0;
+                } else {
+                    time = stop;
+                }
             } else if !state.has_ended() {
                 self.follow(state, ground, (&mut time, stop, duration), at_once <= MOST_TURNABOUTS, limits, observer);
             }
@@ -256,7 +260,6 @@ impl<S: Real> SlidingSystem<S> {
     ) -> S {
         let (here, speed) = (ground.at(time), state.motion.velocity.abs());
         let nothing = self.rest_speed * S::EPSILON;
-        // Impacts at which the toe slips shrink in proportion, and with them both speeds.
         if speed.larger(state.slip.abs()) <= nothing && self.stands(here) {
             state.slip = S::ZERO;
         }
@@ -293,6 +296,30 @@ impl<S: Real> SlidingSystem<S> {
         }
         observer.event(Event::Rest, ends, &state.motion);
         ends
+    }
+
+    /// Rest, where bounces at which the toe slips, which shrink in proportion, have become shorter than time resolves: they accumulate here. Whether
+    /// it has come to rest, to stand for some of the time until `stop`.
+    fn ends_its_bounces(
+        &self,
+        state: &mut SlidingState<S>,
+        ground: GroundPair<'_, S>,
+        (time, stop): (S, S),
+        observer: &mut dyn Observer<S>,
+    ) -> bool {
+        let BlockState { phase, rotation, velocity, impacts, .. } = state.motion;
+        let weak = velocity.abs().larger(state.slip.abs()) <= self.rest_speed && rotation.abs() <= self.slenderness * S::EPSILON;
+        if phase != Phase::Rocking || !weak || self.leaves(ground, time, stop).is_some_and(|at| at <= time) {
+            return false;
+        }
+        state.slip = S::ZERO;
+        state.motion = state.motion.rested(impacts);
+        if state.contact != Contact::Sticks {
+            state.contact = Contact::Sticks;
+            observer.event(Event::Slip, time, &state.motion);
+        }
+        observer.event(Event::Rest, time, &state.motion);
+        true
     }
 
     /// The toe has left the ground: a fall beyond the angle at which friction could hold it goes on, and any other run ends here.

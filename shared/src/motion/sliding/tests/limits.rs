@@ -85,3 +85,23 @@ fn impacts_that_slip_end_in_rest() {
         assert_eq!((later.events.len(), later.ends.len()), (0, 0), "μ = {friction}");
     }
 }
+
+/// Bounces at which the toe slips shrink in proportion: they end where they accumulate, whatever the step and the speed below which an impact may end
+/// in rest.
+#[test]
+fn bounces_with_a_slipping_toe_end_where_they_accumulate() {
+    let structure = Structure { restitution: Restitution::Constant(0.656), ..block(0.05, 0.356) };
+    let ends = |slower: f64, step: f64| {
+        let mut system: SlidingSystem<f64> = structure.resolve_sliding().unwrap();
+        system.rest_speed *= slower;
+        let mut state = system.released_at(0.03, 0.0, [0.0, 0.0]);
+        let seen = follow(&system, &mut state, &[(constant(0.0), None, 20.0)], step);
+        assert!(state.stands() && seen.count(Event::Impact) > 10, "{state:?}");
+        (seen.events.iter().rfind(|(event, _)| *event == Event::Rest).unwrap().1, state.displacement)
+    };
+    let first = ends(1.0, 1e-3);
+    for (slower, step) in [(1e-1, 1e-3), (1e-3, 1e-3), (1e-5, 1e-3), (1.0, 5e-4), (1e-5, 2e-3)] {
+        let other = ends(slower, step);
+        assert!((other.0 - first.0).abs() < 1e-7 && (other.1 - first.1).abs() < 1e-9, "{slower} {step}: {other:?} {first:?}");
+    }
+}
