@@ -29,7 +29,7 @@ class Design(SceneResult):
     accuracy
         The least accurate of the runs that parts are sized by, where that was asked for.
     warnings, failed, left_out
-        What looks like a mistake in the scene, runs that failed, and what could not be found out; a line each.
+        What looks like a mistake in the scene and its records, runs that failed, and what could not be found out; a line each.
     scene
         The scene.
     """

@@ -58,6 +58,8 @@ class ClosedLoop(SceneResult):
         Hash of all decisions, bit by bit.
     summary
         All figures of the run, as in summary.json of the command.
+    warnings
+        What looks like a mistake in the scene, its record files and its controller, a line each.
     ideal_pair
         The run of the ideal pair without a controller.
     scene
@@ -71,6 +73,7 @@ class ClosedLoop(SceneResult):
     columns: dict[str, npt.NDArray[Any]] = field(repr=False)
     decisions_digest: int
     summary: dict[str, Any] = field(repr=False)
+    warnings: tuple[str, ...] = field(repr=False)
     ideal_pair: Run = field(repr=False)
     scene: Scene = field(repr=False)
 
@@ -113,6 +116,7 @@ def loop_of(native: dict[str, Any], scene: Scene) -> ClosedLoop:
     """A closed loop as it comes from the native module."""
     summary = json.loads(native.pop("summary"))
     digest, ideal = native.pop("digest"), native.pop("ideal_pair")
+    warnings = tuple(native.pop("warnings"))
     error = summary.get("error_estimate")
     return ClosedLoop(
         device=summary["device"],
@@ -122,6 +126,7 @@ def loop_of(native: dict[str, Any], scene: Scene) -> ClosedLoop:
         columns=native,
         decisions_digest=digest,
         summary=summary,
+        warnings=warnings,
         ideal_pair=run_of(ideal, scene),
         scene=scene,
     )

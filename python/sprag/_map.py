@@ -38,6 +38,8 @@ class Map(SceneResult):
         max |θ|/α by device, y and x; NaN where overturned.
     peak_acceleration
         max |θ̈|/(p²α) by device, y and x; NaN where overturned.
+    warnings
+        What looks like a mistake in the scene and its record files, a line each.
     scene
         The scene.
     """
@@ -50,6 +52,7 @@ class Map(SceneResult):
     outcome: npt.NDArray[np.uint8] = field(repr=False)
     peak_rotation: Floats = field(repr=False)
     peak_acceleration: Floats = field(repr=False)
+    warnings: tuple[str, ...] = field(repr=False)
     scene: Scene = field(repr=False)
 
     __hash__ = SceneResult.__hash__
@@ -132,5 +135,5 @@ def map(
     if overturned_at is not None:
         scene = scene.set("map.overturned_at", overturned_at)
     native = _core.overturning_map(scene._native, threads=threads)
-    devices = tuple(native.pop("devices"))
-    return Map(devices=devices, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})
+    devices, warnings = (tuple(native.pop(name)) for name in ("devices", "warnings"))
+    return Map(devices=devices, warnings=warnings, scene=scene, **{"y": np.full(1, np.nan), "y_key": None, **native})

@@ -93,6 +93,8 @@ class Run(SceneResult):
         keeps no ledger (Output).
     summary
         All figures of the run, as in summary.json of the command.
+    warnings
+        What looks like a mistake in the scene and its record files, a line each.
     scene
         The scene.
     """
@@ -114,6 +116,7 @@ class Run(SceneResult):
     error: ErrorEstimate | None
     energy: Columns | None = field(repr=False)
     summary: dict[str, Any] = field(repr=False)
+    warnings: tuple[str, ...] = field(repr=False)
     scene: Scene = field(repr=False)
 
     __hash__ = SceneResult.__hash__
@@ -203,6 +206,7 @@ def run_of(native: dict[str, Any], scene: Scene) -> Run:
         error=None if error is None else ErrorEstimate(**error),
         energy=None if native["energy"] is None else Columns(native["energy"]),
         summary=summary,
+        warnings=tuple(native["warnings"]),
         scene=scene,
     )
 

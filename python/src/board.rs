@@ -144,7 +144,7 @@ pub fn board_loop<'py>(
     let dict = PyDict::new(py);
     dict.set_item("differing", farewell.ticks.iter().filter(|tick| tick.differs).count())?;
     dict.set_item("firmware", firmware(&farewell.identity))?;
-    dict.set_item("board", crate::closed_loop::dict(py, report)?)?;
-    dict.set_item("host", crate::closed_loop::dict(py, host)?)?;
+    dict.set_item("board", crate::closed_loop::dict(py, report, &desk)?)?;
+    dict.set_item("host", crate::closed_loop::dict(py, host, &desk)?)?;
     Ok(dict)
 }

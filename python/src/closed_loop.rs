@@ -14,11 +14,11 @@ use sprag_sim::interrupt::Interrupt;
 use crate::errors::{Raise as _, range, refused};
 use crate::law::PythonLaw;
 use crate::long_call::long_call;
-use crate::run::as_dict;
+use crate::run::{as_dict, warnings};
 use crate::scene::Scene;
 
 /// Runs the loop over device number `device`, the first clutched pair without one, by the law of the scene or a function. A dict: its summary
-/// as JSON, an array of each column of its history, and the run of the ideal pair without a controller.
+/// as JSON, an array of each column of its history, the run of the ideal pair without a controller, and warnings.
 ///
 /// # Errors
 /// `InputError`, `RunError`, and what the function raises.
@@ -46,7 +46,7 @@ pub fn closed_loop<'py>(
             report
         }
     };
-    dict(py, report.map_err(|failure| failure.raise())?.1)
+    dict(py, report.map_err(|failure| failure.raise())?.1, &desk)
 }
 
 /// One loop of a scene.
@@ -95,11 +95,13 @@ pub fn run(
     Ok((task.closeness, report))
 }
 
-/// A loop as Python has it.
+/// A loop of `desk` as Python has it.
 ///
 /// # Errors
 /// Those of the interpreter.
-pub fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
+pub fn dict<'py>(py: Python<'py>, report: LoopReport, desk: &LoopScene) -> PyResult<Bound<'py, PyDict>> {
+    let of_scene = warnings(&desk.scene, &desk.ground.records);
+    let of_loop = report.summary.warning(&desk.scene.origin, desk.controller.prelude_s);
     let dict = PyDict::new(py);
     dict.set_item("summary", serde_json::to_string(&report.summary).map_err(refused)?)?;
     dict.set_item("digest", of_decisions(&report.ticks))?;
@@ -125,7 +127,8 @@ pub fn dict(py: Python<'_>, report: LoopReport) -> PyResult<Bound<'_, PyDict>> {
     columns.add("ideal", |tick| tick.ideal)?;
     columns.add("state", |tick| tick.decision.phase as u8)?;
     columns.add("fault", |tick| tick.decision.fault.map_or(0, |fault| fault.code()))?;
-    dict.set_item("ideal_pair", as_dict(py, report.ideal)?)?;
+    dict.set_item("ideal_pair", as_dict(py, report.ideal, &of_scene)?)?;
+    dict.set_item("warnings", [of_scene, Vec::from_iter(of_loop)].concat())?;
     Ok(dict)
 }
 

@@ -16,6 +16,7 @@ use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
 use crate::columns::{self, Columns};
 use crate::errors::{Raise as _, missing, refused};
 use crate::long_call::long_call;
+use crate::run::warnings;
 use crate::scene::{Named, Scene};
 use crate::threads;
 
@@ -81,17 +82,18 @@ pub fn design<'py>(
                 ("motions", Columns::of(&motion_table(&findings, &motions, problem.mass_kg()))),
                 ("delays", Columns::of(&delay_table(&findings))),
             ];
+            let read: Vec<_> = motions.iter().flat_map(|motion| motion.records.iter().cloned()).collect();
             let page = page(&problem, &findings, motions.len(), 0);
             let texts = [serde_json::to_string(&findings.lists), serde_json::to_string(&findings.worst)];
-            Ok((tables, page, texts, findings.failed, findings.left_out))
+            Ok((tables, page, texts, findings.failed, findings.left_out, warnings(scene, &read)))
         })
     })?;
-    let (tables, page, [lists, worst], failures, left_out) = made?;
+    let (tables, page, [lists, worst], failures, left_out, warnings) = made?;
     let dict = columns::tables(py, tables)?;
     dict.set_item("page", page)?;
     dict.set_item("findings", lists.map_err(refused)?)?;
     dict.set_item("accuracy", worst.map_err(refused)?)?;
-    dict.set_item("warnings", scene.warnings())?;
+    dict.set_item("warnings", warnings)?;
     dict.set_item("failed", failures)?;
     dict.set_item("left_out", left_out)?;
     Ok(dict)

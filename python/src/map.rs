@@ -8,11 +8,12 @@ use sprag_studies::map::study::study_rows;
 
 use crate::errors::Raise as _;
 use crate::long_call::long_call;
+use crate::run::warnings;
 use crate::scene::Scene;
 use crate::threads;
 
 /// Outcomes and peaks of every device of a scene, and of clutched pairs by every law of its `[map]`, over the axes there: a dict of the
-/// names of these maps, axes, and arrays by map, y and x.
+/// names of these maps, axes, arrays by map, y and x, and warnings.
 ///
 /// # Errors
 /// `InputError` and `RunError`.
@@ -33,12 +34,16 @@ pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<i64>
             })
         });
         made.map_err(|error| error.raise())?;
-        PyResult::Ok((grid, outcomes, rotations, accelerations))
+        // The scene itself may lack what its axes set.
+        let first = grid.scene_of(0, 0).map_err(|error| error.raise())?;
+        let warnings = warnings(&grid.scene, &first.records().map_err(|error| error.raise())?);
+        PyResult::Ok((grid, outcomes, rotations, accelerations, warnings))
     })?;
-    let (grid, outcomes, rotations, accelerations) = made?;
+    let (grid, outcomes, rotations, accelerations, warnings) = made?;
     let shape = [grid.mapped().len(), grid.rows(), grid.columns()];
     let dict = PyDict::new(py);
     dict.set_item("devices", grid.mapped().iter().map(|mapped| mapped.name.as_str()).collect::<Vec<_>>())?;
+    dict.set_item("warnings", warnings)?;
     dict.set_item("x_key", &grid.map.x.key)?;
     dict.set_item("x", (0..grid.columns()).map(|cell| grid.map.x.value(cell)).collect::<Vec<f64>>().into_pyarray(py))?;
     if let Some(y) = &grid.map.y {

@@ -4,6 +4,8 @@ use numpy::{IntoPyArray as _, PyArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_sim::history::Sample;
+use sprag_sim::record::{RecordSummary, every_warning};
+use sprag_sim::scene::Scene as SimScene;
 use sprag_sim::simulation::DeviceRun;
 use sprag_sim::simulation::energy::COLUMNS;
 use sprag_sim::simulation::simulate as simulated;
@@ -12,7 +14,7 @@ use crate::errors::{Raise as _, refused};
 use crate::long_call::long_call;
 use crate::scene::Scene;
 
-/// Runs every device of a scene. A dict of each: its summary as JSON, and its history as arrays.
+/// Runs every device of a scene. A dict of each: its summary as JSON, its history as arrays, and warnings.
 ///
 /// # Errors
 /// `InputError` and `RunError`.
@@ -21,16 +23,23 @@ pub fn simulate<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Vec<Bound<'py, 
     let scene = &scene.scene;
     let runs = long_call(py, |interrupt| {
         let ground = scene.ground_motions().map_err(|error| error.raise())?;
-        simulated(scene, &ground, interrupt).map_err(|error| error.raise())
+        let runs = simulated(scene, &ground, interrupt).map_err(|error| error.raise())?;
+        PyResult::Ok((runs, warnings(scene, &ground.records)))
     })?;
-    runs?.into_iter().map(|run| as_dict(py, run)).collect()
+    let (runs, warnings) = runs?;
+    runs.into_iter().map(|run| as_dict(py, run, &warnings)).collect()
 }
 
-/// A run as Python has it.
+/// What looks like a mistake in `scene` and its `records`, a line each.
+pub fn warnings(scene: &SimScene, records: &[RecordSummary]) -> Vec<String> {
+    [scene.warnings(), every_warning(records)].concat()
+}
+
+/// A run as Python has it, with the `warnings` of its scene.
 ///
 /// # Errors
 /// Those of the interpreter.
-pub fn as_dict(py: Python<'_>, run: DeviceRun) -> PyResult<Bound<'_, PyDict>> {
+pub fn as_dict<'py>(py: Python<'py>, run: DeviceRun, warnings: &[String]) -> PyResult<Bound<'py, PyDict>> {
     let samples = &run.history.samples;
     let column = |pick: fn(&Sample) -> f64| samples.iter().map(pick).collect::<Vec<f64>>().into_pyarray(py);
     let rows = |first: fn(&Sample) -> f64, second: fn(&Sample) -> f64| {
@@ -50,6 +59,7 @@ pub fn as_dict(py: Python<'_>, run: DeviceRun) -> PyResult<Bound<'_, PyDict>> {
     });
     dict.set_item("energy", energy.transpose()?)?;
     dict.set_item("summary", serde_json::to_string(&run).map_err(refused)?)?;
+    dict.set_item("warnings", warnings)?;
     dict.set_item("t", column(|sample| sample.time_s))?;
     dict.set_item("y", rows(|sample| sample.rotation_rad, |sample| sample.velocity_rad_s)?)?;
     dict.set_item("acceleration_rad_s2", column(|sample| sample.acceleration_rad_s2))?;

@@ -100,7 +100,7 @@ impl Study {
 
     /// What is said of them.
     fn say(&self, dict: &Bound<'_, PyDict>, more: Vec<String>, records: &StudyRecords, left_out: &[String]) -> PyResult<()> {
-        let warnings = [more, self.study.warnings(), records.warnings()].concat();
+        let warnings = [more, self.study.warnings(), records.every_warning()].concat();
         dict.set_item("warnings", warnings)?;
         dict.set_item("unreadable", &records.unreadable)?;
         dict.set_item("left_out", left_out)

@@ -50,6 +50,14 @@ def test_records_of_one_file_name_are_distinguished(scene: sprag.Scene) -> None:
     assert found.motions["motion"] == ["own motion", "one/a.csv", "other/a.csv"]
 
 
+def test_what_looks_wrong_of_records_is_said(scene: sprag.Scene) -> None:
+    record = sprag.Record(burst(4.0).acceleration_m_s2 + 0.1, time_step_s=0.01, name="skewed")
+    found = sprag.design(scene, devices=["clutched pair"], records=[record])
+    assert record.warnings
+    assert {f"skewed: {warning}" for warning in record.warnings} <= set(found.warnings)
+    assert set(scene.warnings) <= set(found.warnings)
+
+
 def test_parts_grow_with_what_is_assumed(scene: sprag.Scene) -> None:
     def chosen(**assumed: float) -> float:
         parts = sprag.design(scene, devices=["clutched pair"], **assumed).parts

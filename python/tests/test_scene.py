@@ -122,6 +122,18 @@ def test_a_scene_holds_the_records_that_it_names_and_no_others() -> None:
     assert both == sprag.Scene(block=PIER, ground=[triangle(9.0)], vertical=second).set("ground", [first])
 
 
+def test_results_say_what_looks_wrong_of_records() -> None:
+    record = sprag.Record([0.0, 50.0, 0.0], time_step_s=0.01, units="g", name="loud")
+    pair = sprag.ClutchedPair(mass_ratio=0.5, engagement="rigid")
+    scene = sprag.Scene(block=PIER, ground=[record, record], device=pair, controller=sprag.Controller())
+    expected = (*scene.warnings, *(f"loud: {warning}" for warning in record.warnings))
+    assert any("check the units" in line for line in expected)
+    loop = sprag.closed_loop(scene)
+    axis = sprag.Axis(key="block.size_m", start=1.0, stop=2.0, cells=2)
+    for result in (*sprag.simulate(scene), sprag.map(scene, x=axis), loop, loop.ideal_pair):
+        assert result.warnings == expected, type(result).__name__
+
+
 @pytest.mark.parametrize(
     ("key", "value", "refused"),
     [

@@ -87,6 +87,14 @@ def test_studies_are_values(folder: Path) -> None:
         study.text = ""
 
 
+@pytest.mark.parametrize("answer", [sprag.cloud, sprag.optimise])
+def test_every_warning_about_records_is_said(answer) -> None:
+    loud = [sprag.Record([0.0, 50.0 + k, 0.0], time_step_s=0.01, units="g", name=f"loud {k}") for k in range(9)]
+    lines = {f"{record.name}: {warning}" for record in loud for warning in record.warnings}
+    assert len(lines) > 8
+    assert lines <= set(answer(sprag.Study(TEXT, records=loud)).warnings)
+
+
 def test_studies_of_no_records_are_refused(folder: Path, tmp_path: Path) -> None:
     study = sprag.Study.read(folder / "study.toml")
     (tmp_path / "words.csv").write_text("none")

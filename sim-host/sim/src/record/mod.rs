@@ -33,7 +33,7 @@ pub use contents::{Format, Header, StatedStep};
 pub use error::RecordError;
 pub use event_date::EventDate;
 pub use intensity::Intensity;
-pub use summary::{RecordSummary, warning_lines};
+pub use summary::{RecordSummary, every_warning, warning_lines};
 pub use units::{STANDARD_GRAVITY_M_S2, Units};
 pub use warning::Warning;
 

@@ -1,6 +1,6 @@
 //! What summaries of results say of the records behind them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Display;
 
 use serde::Serialize;
@@ -48,6 +48,15 @@ impl RecordSummary {
     }
 }
 
+/// Every warning of `records`, `FILE: …`, each once.
+pub fn every_warning(records: &[RecordSummary]) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    let of = |record: &RecordSummary| -> Vec<String> {
+        record.warnings.iter().map(|warning| format!("{}: {warning}", record.file)).collect()
+    };
+    records.iter().flat_map(of).filter(|line| seen.insert(line.clone())).collect()
+}
+
 /// The warnings of `records` as lines for a screen, `FILE: …`: all of a few, else those of the rarest kinds and how many more
 /// there are.
 pub fn warning_lines(records: &[RecordSummary]) -> Vec<String> {
@@ -93,6 +102,7 @@ mod tests {
         (odd.file, odd.warnings) = ("odd.csv".to_owned(), vec!["clipped: 7 samples".to_owned()]);
         let mixed = warning_lines(&[vec![summary.clone(); 50], vec![odd], vec![summary.clone(); 50]].concat());
         assert_eq!((mixed.len(), mixed[0].as_str()), (MOST_LINES, "odd.csv: clipped: 7 samples"));
+        assert_eq!(every_warning(&vec![summary.clone(); 200]), lines);
         let many = warning_lines(&vec![summary; 200]);
         let last = format!("{} more warnings; summary.json has all {} of 200 records", 200 * each - MOST_LINES + 1, 200 * each);
         assert_eq!((many.len(), many.last()), (MOST_LINES, Some(&last)));

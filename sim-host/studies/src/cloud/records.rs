@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 use sprag_sim::ground_motion::{self, GroundMotion};
 use sprag_sim::record::{
-    Component, ReadOptions, Record, RecordError, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, warning_lines,
+    Component, ReadOptions, Record, RecordError, RecordSummary, STANDARD_GRAVITY_M_S2, Warning, every_warning, warning_lines,
 };
 use sprag_sim::scene::SceneError;
 use sprag_sim::scene::error::KeyPath;
@@ -137,6 +137,11 @@ impl StudyRecords {
     /// The records as summaries have them.
     pub fn summaries(&self) -> Vec<RecordSummary> {
         self.records.iter().map(|record| RecordSummary::of(&record.motion.record, &record.name)).collect()
+    }
+
+    /// What a person should look at, all of it.
+    pub fn every_warning(&self) -> Vec<String> {
+        [self.passed_over.clone(), every_warning(&self.summaries())].concat()
     }
 
     /// What a person should look at, in a few lines.
