@@ -284,7 +284,7 @@ def closed_loop(
     *,
     device: int | None = None,
     seed: int | None = None,
-    law: Callable[[Situation], int] | None = None,
+    law: Callable[[Situation], int | np.bool_] | None = None,
     predicts: bool = True,
 ) -> dict[str, Any]: ...
 def plan(folder: str | os.PathLike[str]) -> tuple[str, int, int, Path]: ...

@@ -34,7 +34,7 @@ class Wish(IntEnum):
     """The first flywheel stays on the rack, whatever it does there."""
 
 
-Law = Callable[[Situation], "Wish | bool"]
+Law = Callable[[Situation], "Wish | bool | np.bool_"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,8 +150,8 @@ def closed_loop(
         The pair, by number or name; the first one by default.
     law
         A function of the Situation at a control tick that returns a Wish, or whether to resist, in the place of the scene's law. It is
-        called twice a tick, also for the true motion, by which its decisions are judged: let it depend on nothing else. A call costs
-        some microseconds, and other threads of Python run only while the function does.
+        called twice a tick, also for the true motion, by which its decisions are judged: let it depend on nothing else. Other
+        threads of Python run only while it does.
     predicts
         Whether a law of one's own is asked about the instant at which its answer takes effect, and not about now.
     seed

@@ -8,6 +8,8 @@ use sprag_shared::control::law::{Law, Situation as SharedSituation, Wish};
 use sprag_shared::math::sign::Sign;
 use sprag_sim::interrupt::Interrupt;
 
+use crate::value::is_bool;
+
 /// What a clutch law can know at a control tick, in the single precision of the controller.
 ///
 /// The motion is that at the instant at which a command given now takes effect, or that of now for a law that does not predict.
@@ -100,7 +102,8 @@ impl PythonLaw {
             // A function that is not written in Python does not look for Ctrl-C.
             py.check_signals()?;
             let answer = self.function.bind(py).call1((Situation::from(at),))?;
-            match answer.extract::<u8>() {
+            let wish = if is_bool(&answer)? { answer.is_truthy().map(u8::from) } else { answer.extract() };
+            match wish {
                 Ok(0) => Ok(Wish::Release),
                 Ok(1) => Ok(Wish::Resist),
                 Ok(2) => Ok(Wish::Hold),

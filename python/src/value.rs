@@ -24,6 +24,15 @@ pub fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
     table_within(dict, DEEPEST)
 }
 
+/// Whether `object` is a bool, or one of NumPy, which is called `bool_` before version 2.
+///
+/// # Errors
+/// Those of the interpreter.
+pub fn is_bool(object: &Bound<'_, PyAny>) -> PyResult<bool> {
+    let named = |name: &Bound<'_, PyString>| name == "bool" || name == "bool_";
+    Ok(object.is_instance_of::<PyBool>() || named(&object.get_type().name()?))
+}
+
 fn table_within(dict: &Bound<'_, PyDict>, depth: usize) -> PyResult<Table> {
     let mut table = Table::new();
     for (key, object) in dict.iter().filter(|(_, object)| !object.is_none()) {
@@ -39,8 +48,7 @@ fn value_within(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     if let Ok(dict) = object.cast::<PyDict>() {
         return table_within(dict, depth).map(Value::Table);
     }
-    // NumPy's too.
-    if object.is_instance_of::<PyBool>() || object.get_type().name()? == "bool" {
+    if is_bool(object)? {
         return object.is_truthy().map(Value::Boolean);
     }
     if object.is_instance_of::<PyInt>() || object.hasattr("__index__")? && !object.hasattr("__len__")? {

@@ -50,6 +50,13 @@ def test_a_law_of_python_is_the_law_that_it_says(scene: sprag.Scene, own: sprag.
         assert sprag.closed_loop(scene, law=law, predicts=False).decisions_digest == theirs.decisions_digest
 
 
+def test_a_law_answers_with_a_bool_of_numpy(scene: sprag.Scene, own: sprag.ClosedLoop) -> None:
+    # Under NumPy 1 its type is called otherwise.
+    older = type("bool_", (), {"__init__": lambda self, value: setattr(self, "value", value), "__bool__": lambda self: bool(self.value)})
+    for boolean in (np.bool_, older):
+        assert sprag.closed_loop(scene, law=lambda at, boolean=boolean: boolean(resisting(at))).decisions_digest == own.decisions_digest
+
+
 def test_a_law_works_at_any_accuracy(scene: sprag.Scene) -> None:
     closer = scene.set("accuracy", {"level": "fast"})
     ours, theirs = sprag.closed_loop(closer, law=resisting), sprag.closed_loop(closer)
