@@ -7,8 +7,8 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_studies::statistics::{
-    Band, Bootstrap, BootstrapError, DemandPoint, Fragility as Fit, FragilityCurve, FragilityError, Level, Observation,
-    ObservationError, PowerLaw as Law, PowerLawError, fragility as fitted, fragility_bands,
+    Band, Bootstrap, BootstrapError, CurveBand, DemandPoint, Fragility as Fit, FragilityCurve, FragilityError, Level,
+    Observation, ObservationError, PowerLaw as Law, PowerLawError, fragility as fitted, fragility_bands,
 };
 
 use crate::errors::{Raise, failed, missing, range};
@@ -210,7 +210,7 @@ impl Fragility {
     }
 
     /// The same by resampling the runs (Efron and Tibshirani 1993), as a dict: `low`, `median` and `high` of the probability at each
-    /// intensity, and the share of resamples that have no curve.
+    /// intensity, NaN where no resample has a curve, and the share of resamples that have none.
     #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = None, threads = None), text_signature = "($self, intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
     fn bootstrap<'py>(
         &self,
@@ -231,10 +231,14 @@ impl Fragility {
             long_call(py, |interrupt| pool.install(|| fragility_bands(&self.observations, &intensities, bootstrap, interrupt)))?;
         let bands = bands.map_err(|error| error.raise())?;
         let dict = PyDict::new(py);
-        let column = |pick: fn(&Band) -> f64| bands.curve.iter().map(|at| pick(&at.band)).collect::<Vec<_>>().into_pyarray(py);
-        dict.set_item("low", column(|band| band.low))?;
-        dict.set_item("median", bands.curve.iter().map(|at| at.median).collect::<Vec<_>>().into_pyarray(py))?;
-        dict.set_item("high", column(|band| band.high))?;
+        let column = |pick: fn(&CurveBand) -> f64| {
+            let mut column: Vec<f64> = bands.curve.iter().map(pick).collect();
+            column.resize(intensities.len(), f64::NAN);
+            column.into_pyarray(py)
+        };
+        dict.set_item("low", column(|at| at.band.low))?;
+        dict.set_item("median", column(|at| at.median))?;
+        dict.set_item("high", column(|at| at.band.high))?;
         dict.set_item("share_without_estimate", bands.share_without_estimate)?;
         Ok(dict)
     }

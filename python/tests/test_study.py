@@ -160,6 +160,9 @@ def test_a_fragility_is_that_of_its_likelihood() -> None:
     none = sprag.fragility(intensity=[1.0, 2.0], overturned=[0, 0])
     assert none.median is None
     assert str(none.reason).startswith("none of 2 runs overturned")
+    empty = none.bootstrap([1.0, 2.0, 3.0], resamples=5)
+    assert empty.pop("share_without_estimate") == 1.0
+    assert all(column.shape == (3,) and np.isnan(column).all() for column in empty.values())
     with pytest.raises(sprag.RunError, match="none of 2 runs"):
         none.probability([1.0])
 
