@@ -243,11 +243,11 @@ impl Record {
     }
 
     fn __eq__(&self, other: &Record) -> bool {
-        let key = |record: &Record| {
-            let SimRecord { name, time_step_s, start_time_s, units, component, .. } = record.record.clone();
-            (name, time_step_s, start_time_s, units, component)
-        };
-        key(self) == key(other) && self.record.acceleration_m_s2 == other.record.acceleration_m_s2
+        let SimRecord { name, time_step_s, start_time_s, units, component, acceleration_m_s2, .. } = &self.record;
+        let other = &other.record;
+        (name, time_step_s, start_time_s) == (&other.name, &other.time_step_s, &other.start_time_s)
+            && (units, component) == (&other.units, &other.component)
+            && *acceleration_m_s2 == other.acceleration_m_s2
     }
 
     fn __hash__(&self) -> u64 {
