@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use numpy::{IntoPyArray as _, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyByteArray, PyBytes, PyComplex, PyString};
+use pyo3::types::{PyByteArray, PyBytes, PyComplex, PyString, PyTuple};
 use sprag_shared::math::fnv::Fnv;
 use sprag_sim::record::intensity::{cumulative_absolute_velocity_m_s, uniform_duration_s};
 use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, StatedStep, Units};
@@ -82,12 +82,13 @@ pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Vec<f64>
         return Err(refused(&dtype));
     }
     if kind == "O" {
-        let complex = numpy.getattr("complexfloating")?;
+        let [complex, date, span] = ["complexfloating", "datetime64", "timedelta64"].map(|name| numpy.getattr(name));
+        let others = PyTuple::new(object.py(), [complex?, date?, span?])?;
         for item in array.try_iter()? {
             let item = item?;
             let is_text =
                 item.is_instance_of::<PyString>() || item.is_instance_of::<PyBytes>() || item.is_instance_of::<PyByteArray>();
-            if is_text || item.is_instance_of::<PyComplex>() || item.is_instance(&complex)? {
+            if is_text || item.is_instance_of::<PyComplex>() || item.is_instance(&others)? {
                 return Err(refused(&item.get_type().name()?));
             }
         }

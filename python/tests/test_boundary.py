@@ -40,6 +40,8 @@ NOT_REAL = [
     np.array([b"1", bytearray(b"2")], dtype=object),
     np.array([1 + 1j, 2.0], dtype=object),
     np.array([np.complex64(1 + 1j), 2.0], dtype=object),
+    np.array([np.timedelta64(1, "s"), 2.0], dtype=object),
+    np.array([np.datetime64(1, "s"), 2.0], dtype=object),
     np.ma.array([1.0, 9999.0], mask=[False, True]),
 ]
 
