@@ -8,28 +8,40 @@ use sprag_sim::scene::Scene as SimScene;
 use sprag_sim::scene::ground::GroundError;
 use sprag_studies::cloud::record_name::names;
 use sprag_studies::design::basis::Basis;
+use sprag_studies::design::error::DesignError;
 use sprag_studies::design::page::page;
 use sprag_studies::design::study::Problem;
 use sprag_studies::design::table::{delay_table, motion_table, parts_table};
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
 
 use crate::columns::{self, Columns};
-use crate::errors::{Raise as _, missing, refused};
+use crate::errors::{Raise as _, assumption, missing, range, refused};
 use crate::long_call::long_call;
 use crate::run::warnings;
 use crate::scene::{Named, Scene};
 use crate::threads;
 
-/// What is assumed: the words of [`Basis`].
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub struct Assumed {
-    margin: f64,
-    service_factor: f64,
-    teeth: u32,
-    face_width_modules: f64,
-    allowable_stress_mpa: Option<f64>,
-    tolerance: f64,
+/// What is assumed, by the words of [`Basis`]; a stress of None is that of `scene`.
+fn assumed(scene: &SimScene, words: &Bound<'_, PyDict>) -> PyResult<Basis> {
+    let word = |name: &str| words.as_any().get_item(name);
+    // What is no number is outside every range.
+    let number = |name: &str| PyResult::Ok(word(name)?.extract().unwrap_or(f64::NAN));
+    let stress = "allowable_stress_mpa";
+    let basis = Basis {
+        margin: number("margin")?,
+        service_factor: number("service_factor")?,
+        teeth: word("teeth")?.extract().unwrap_or(0),
+        face_width_modules: number("face_width_modules")?,
+        allowable_stress_mpa: if word(stress)?.is_none() { Basis::allowable_stress_of(scene) } else { number(stress)? },
+        tolerance: number("tolerance")?,
+    };
+    match basis.check() {
+        Err(DesignError::Range { option, range: allowed, .. }) => {
+            let key = assumption(option);
+            Err(range(&key, word(&key)?, allowed))
+        }
+        checked => checked.map(|()| basis).map_err(|error| error.raise()),
+    }
 }
 
 /// The own motion of `scene`, and each of `records` in its place.
@@ -60,14 +72,12 @@ pub fn design<'py>(
     scene: &Scene,
     records: Named,
     devices: Vec<String>,
-    basis: Assumed,
-    threads: Option<i64>,
+    basis: &Bound<'py, PyDict>,
+    threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let scene = &scene.scene;
-    let Assumed { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance } = basis;
-    let allowable_stress_mpa = allowable_stress_mpa.unwrap_or_else(|| Basis::allowable_stress_of(scene));
-    let basis = Basis { margin, service_factor, teeth, face_width_modules, allowable_stress_mpa, tolerance };
+    let basis = assumed(scene, basis)?;
     let records = crate::scene::records(py, &records);
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {

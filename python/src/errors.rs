@@ -172,18 +172,20 @@ impl Raise for AccuracyError {
     }
 }
 
+/// The assumption of a design that is this `option` of the command.
+pub fn assumption(option: &str) -> String {
+    match option {
+        "face-width" => "face_width_modules".to_owned(),
+        "allowable-stress" => "allowable_stress_mpa".to_owned(),
+        option => option.replace('-', "_"),
+    }
+}
+
 impl Raise for DesignError {
     fn raise(self) -> PyErr {
         let message = self.to_string();
         match self {
-            DesignError::Range { option, value, range: allowed } => {
-                let key = match option {
-                    "face-width" => "face_width_modules".to_owned(),
-                    "allowable-stress" => "allowable_stress_mpa".to_owned(),
-                    option => option.replace('-', "_"),
-                };
-                range(&key, value, allowed)
-            }
+            DesignError::Range { option, value, range: allowed } => range(&assumption(option), value, allowed),
             DesignError::UnknownDevice { name, known } => range("devices", format_args!("{name:?}"), &format!("one of {known}")),
             DesignError::NoDevice { .. } => input(&message, Some("device"), None, None),
             DesignError::NoRun { .. } | DesignError::NeverRocks { .. } | DesignError::NoGear { .. } => failed(message),

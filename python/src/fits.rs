@@ -15,6 +15,10 @@ use crate::errors::{Raise, failed, missing, range};
 use crate::long_call::long_call;
 use crate::record::numbers;
 use crate::threads;
+use crate::value::whole;
+
+/// What the number of resamples may be.
+const RESAMPLES: &str = "from 1 to 1000000";
 
 /// A column of numbers.
 type Column<'py> = Bound<'py, PyArray1<f64>>;
@@ -211,19 +215,20 @@ impl Fragility {
 
     /// The same by resampling the runs (Efron and Tibshirani 1993), as a dict: `low`, `median` and `high` of the probability at each
     /// intensity, NaN where no resample has a curve, and the share of resamples that have none.
-    #[pyo3(signature = (intensity, *, level = 0.95, resamples = 1000, seed = None, threads = None), text_signature = "($self, intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
+    #[pyo3(signature = (intensity, *, level = 0.95, resamples = None, seed = None, threads = None), text_signature = "($self, intensity, *, level=0.95, resamples=1000, seed=1, threads=None)")]
     fn bootstrap<'py>(
         &self,
         py: Python<'py>,
         intensity: &Bound<'py, PyAny>,
         level: f64,
-        resamples: i64,
+        resamples: Option<&Bound<'py, PyAny>>,
         seed: Option<&Bound<'py, PyAny>>,
-        threads: Option<i64>,
+        threads: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let seed = seed.map_or(Ok(1), |seed| {
             seed.extract().map_err(|_| range("seed", seed, "a whole number from 0 to 18446744073709551615"))
         })?;
+        let resamples = resamples.map_or(Ok(1000), |resamples| whole(resamples, "resamples", RESAMPLES))?;
         let resamples = u32::try_from(resamples).map_err(|_| resamples_refused(resamples))?;
         let bootstrap = Bootstrap { resamples, seed, level: confidence(level)? };
         let (intensities, pool) = (intensities(intensity)?, self::threads(threads)?);
@@ -328,7 +333,7 @@ fn confidence(level: f64) -> PyResult<Level> {
 }
 
 fn resamples_refused(value: impl Display) -> PyErr {
-    range("resamples", value, "from 1 to 1000000")
+    range("resamples", value, RESAMPLES)
 }
 
 /// Lower and upper ends of `bands`.

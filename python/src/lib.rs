@@ -65,10 +65,11 @@ mod _core {
 ///
 /// # Errors
 /// `InputError` for a number of threads that cannot be had.
-fn threads(number: Option<i64>) -> PyResult<rayon::ThreadPool> {
-    let within = |number: i64| match usize::try_from(number) {
+fn threads(number: Option<&Bound<'_, PyAny>>) -> PyResult<rayon::ThreadPool> {
+    let allowed = "a whole number from 1 to 1024";
+    let within = |number| match usize::try_from(value::whole(number, "threads", allowed)?) {
         Ok(threads @ 1..=1024) => Ok(threads),
-        _ => Err(errors::range("threads", number, "a whole number from 1 to 1024")),
+        _ => Err(errors::range("threads", number, allowed)),
     };
     let number = number.map(within).transpose()?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(number.unwrap_or(0)).build();

@@ -19,7 +19,7 @@ use crate::threads;
 /// `InputError` and `RunError`.
 #[pyfunction]
 #[pyo3(signature = (scene, *, threads = None))]
-pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<i64>) -> PyResult<Bound<'py, PyDict>> {
+pub fn overturning_map<'py>(py: Python<'py>, scene: &Scene, threads: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let made = long_call(py, |interrupt| {
         let grid = Grid::new(scene.scene.clone(), scene.table.clone()).map_err(|error| error.raise())?;

@@ -24,6 +24,7 @@ use crate::errors::{Raise as _, failed, missing, range, refused};
 use crate::long_call::long_call;
 use crate::scene::{Named, Scene};
 use crate::threads;
+use crate::value::whole;
 
 /// A study: records, structures, devices, and what is asked of them; every value within its range.
 #[pyclass(frozen, module = "sprag._core")]
@@ -117,7 +118,7 @@ fn stopped(error: RunError) -> PyErr {
 /// `InputError` for a study of no records.
 #[pyfunction]
 #[pyo3(signature = (study, *, threads = None))]
-pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> PyResult<Bound<'py, PyDict>> {
+pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {
@@ -153,7 +154,7 @@ pub fn cloud<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> PyRes
 /// `InputError` for a study that asks for no device, or has no records.
 #[pyfunction]
 #[pyo3(signature = (study, *, threads = None))]
-pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> PyResult<Bound<'py, PyDict>> {
+pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<&Bound<'py, PyAny>>) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
     let made = long_call(py, |interrupt| {
         pool.install(|| -> PyResult<_> {
@@ -196,13 +197,14 @@ pub fn optimise<'py>(py: Python<'py>, study: &Study, threads: Option<i64>) -> Py
 pub fn accuracy<'py>(
     py: Python<'py>,
     scene: &Scene,
-    cells: i64,
+    cells: &Bound<'py, PyAny>,
     smallest_step: f64,
-    threads: Option<i64>,
+    threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pool = self::threads(threads)?;
-    let Some(cells) = u8::try_from(cells).ok().filter(|cells| CELLS.contains(cells)) else {
-        return Err(range("cells", cells, &format!("from {} to {}", CELLS.start(), CELLS.end())));
+    let allowed = format!("from {} to {}", CELLS.start(), CELLS.end());
+    let Some(cells) = u8::try_from(whole(cells, "cells", &allowed)?).ok().filter(|cells| CELLS.contains(cells)) else {
+        return Err(range("cells", cells, &allowed));
     };
     if !SMALLEST_STEPS.contains(&smallest_step) {
         return Err(range(

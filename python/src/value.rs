@@ -1,17 +1,20 @@
 //! Values of Python as those of a scene.
 
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use toml::{Table, Value};
 
+use crate::errors::range;
+
 /// Deepest tables in tables.
 const DEEPEST: usize = 16;
 
-/// `object` as TOML has it: a bool, a number, a text, a path, a dict or a sequence of these. A key of a dict without a value (None) is left out.
+/// `object` as TOML has it: a bool, a number, a text, a path, a dict or a sequence of these. An integer beyond 64 bits is a floating-point number,
+/// which no key of whole numbers takes. A key of a dict without a value (None) is left out.
 ///
 /// # Errors
-/// `TypeError` for any other object, `OverflowError` for an integer beyond 64 bits.
+/// `TypeError` for any other object.
 pub fn value(object: &Bound<'_, PyAny>) -> PyResult<Value> {
     value_within(object, DEEPEST)
 }
@@ -22,6 +25,17 @@ pub fn value(object: &Bound<'_, PyAny>) -> PyResult<Value> {
 /// As [`value`].
 pub fn table(dict: &Bound<'_, PyDict>) -> PyResult<Table> {
     table_within(dict, DEEPEST)
+}
+
+/// A whole number, the value of `key`, which must be `allowed`.
+///
+/// # Errors
+/// `InputError` for one beyond 64 bits, `TypeError` for what is none.
+pub fn whole(object: &Bound<'_, PyAny>, key: &str, allowed: &str) -> PyResult<i64> {
+    object.extract().map_err(|error: PyErr| match error.is_instance_of::<PyOverflowError>(object.py()) {
+        true => range(key, object, allowed),
+        false => error,
+    })
 }
 
 /// Whether `object` is a bool, or one of NumPy, which is called `bool_` before version 2.
@@ -52,7 +66,11 @@ fn value_within(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         return object.is_truthy().map(Value::Boolean);
     }
     if object.is_instance_of::<PyInt>() || object.hasattr("__index__")? && !object.hasattr("__len__")? {
-        return object.extract().map(Value::Integer);
+        let beyond = |_| {
+            let infinity = if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY };
+            Ok(Value::Float(object.extract().unwrap_or(infinity)))
+        };
+        return object.extract().map(Value::Integer).or_else(beyond);
     }
     if object.is_instance_of::<PyString>() {
         return object.extract().map(Value::String);

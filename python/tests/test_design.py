@@ -77,12 +77,19 @@ def test_parts_grow_with_what_is_assumed(scene: sprag.Scene) -> None:
         ({"tolerance": float("nan")}, "tolerance"),
         ({"devices": ["pendulum"]}, "devices"),
         ({"threads": 0}, "threads"),
+        ({"threads": 2**70}, "threads"),
+        ({"margin": "a"}, "margin"),
+        ({"tolerance": None}, "tolerance"),
+        ({"teeth": -5}, "teeth"),
+        ({"teeth": 2**40}, "teeth"),
+        ({"teeth": 20.0}, "teeth"),
     ],
 )
 def test_what_cannot_be_assumed_is_refused(scene: sprag.Scene, assumed: dict[str, object], key: str) -> None:
     with pytest.raises(sprag.InputError) as raised:
         sprag.design(scene, **assumed)
     assert raised.value.key == key
+    assert str(raised.value).startswith(f"{key} is {assumed[key]}" if key != "devices" else key)
 
 
 def test_scenes_that_ask_for_no_size_are_refused(scene: sprag.Scene) -> None:

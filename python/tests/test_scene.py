@@ -175,7 +175,7 @@ def test_any_value_is_taken_or_refused_in_one_way(key: str, value: Any) -> None:
     scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
     try:
         changed = scene.set(key, value)
-    except (sprag.InputError, TypeError, OverflowError) as error:
+    except (sprag.InputError, TypeError) as error:
         assert "\n" not in str(error)
     else:
         assert sprag.Scene.parse(changed.to_toml()).to_dict() == changed.to_dict()

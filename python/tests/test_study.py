@@ -152,7 +152,15 @@ def test_a_fragility_is_that_of_its_likelihood() -> None:
     again = few.bootstrap([2.0, 4.0], resamples=50, threads=1)
     assert all(np.array_equal(bands[name], again[name]) for name in bands)
     assert (bands["low"] <= bands["high"]).all()
-    wrong = [{"resamples": -1}, {"resamples": 2**40}, {"threads": -1}, {"seed": -1}, {"seed": 2**64}]
+    wrong = [
+        {"resamples": -1},
+        {"resamples": 2**40},
+        {"resamples": 2**70},
+        {"threads": -(2**70)},
+        {"threads": -1},
+        {"seed": -1},
+        {"seed": 2**64},
+    ]
     for keywords, key in [(keywords, *keywords) for keywords in wrong]:
         with pytest.raises(sprag.InputError) as raised:
             few.bootstrap([2.0], **keywords)
@@ -186,6 +194,7 @@ def test_accuracy_is_a_table_of_methods(scenes: Path) -> None:
         ({"cells": 65}, "cells"),
         ({"cells": 300}, "cells"),
         ({"cells": -1}, "cells"),
+        ({"cells": 2**70}, "cells"),
         ({"smallest_step": math.nan}, "smallest_step"),
         ({"threads": 0}, "threads"),
         ({"threads": -1}, "threads"),

@@ -87,6 +87,16 @@ def test_numbers_of_numpy_are_numbers() -> None:
     assert block == sprag.Block(size_m=2.0, slenderness_deg=10.0)
 
 
+@pytest.mark.parametrize("size", [2**70, -(2**70), 10**400, -(10**400)], ids=lambda size: f"{size.bit_length()} bits, {size > 0}")
+def test_whole_numbers_of_any_length_are_within_a_range_or_not(size: int) -> None:
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.Block(size_m=size, slenderness_deg=10.0)
+    assert raised.value.key == "size_m"
+    with pytest.raises(sprag.InputError) as raised:
+        sprag.Sensors(seed=size)
+    assert "seed" in str(raised.value)
+
+
 def test_errors_pickle() -> None:
     with pytest.raises(sprag.InputError) as raised:
         sprag.Block(size_m=-1.0, slenderness_deg=10.0)

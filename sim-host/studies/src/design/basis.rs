@@ -68,7 +68,7 @@ impl Basis {
         };
         within("margin", self.margin, (1.0..=10.0).contains(&self.margin), "from 1 to 10")?;
         within("service-factor", self.service_factor, (1.0..=10.0).contains(&self.service_factor), "from 1 to 10")?;
-        within("teeth", self.teeth.into(), TEETH.contains(&self.teeth), "from 12 to 200")?;
+        within("teeth", self.teeth.into(), TEETH.contains(&self.teeth), "a whole number from 12 to 200")?;
         let width = self.face_width_modules;
         within("face-width", width, (4.0..=20.0).contains(&width), "from 4 to 20 modules")?;
         let stress = self.allowable_stress_mpa;
