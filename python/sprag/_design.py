@@ -56,7 +56,7 @@ def design(
     scene: Scene,
     *,
     records: Sequence[Record] = (),
-    devices: Sequence[str] = (),
+    devices: str | Sequence[str] = (),
     margin: float = 1.25,
     service_factor: float = 1.5,
     teeth: int = 20,
@@ -74,7 +74,7 @@ def design(
     records
         Records, each in the place of the scene's, beside its own motion.
     devices
-        Names of the devices to design; all that have a flywheel without it.
+        Name of the device to design, or names of several; all that have a flywheel without it.
     margin
         Factor on force, travel and readings of sensors; 1 to 10.
     service_factor
@@ -105,6 +105,7 @@ def design(
         "allowable_stress_mpa": allowable_stress_mpa,
         "tolerance": tolerance,
     }
-    native = _core.design(scene._native, records=named(records), devices=list(devices), basis=basis, threads=threads)
+    names = [devices] if isinstance(devices, str) else list(devices)
+    native = _core.design(scene._native, records=named(records), devices=names, basis=basis, threads=threads)
     page = native.pop("page")
     return Design(scene=scene, page=page, **answer(native, ("warnings", "failed", "left_out")))

@@ -34,7 +34,8 @@ def test_parts_are_those_of_the_command(scene: sprag.Scene, scenes: Path, comman
 
 
 def test_records_come_beside_the_motion_of_the_scene(scene: sprag.Scene) -> None:
-    alone = sprag.design(scene, devices=["clutched pair"])
+    alone = sprag.design(scene, devices="clutched pair")
+    assert alone == sprag.design(scene, devices=["clutched pair"])
     both = sprag.design(scene, devices=["clutched pair"], records=[burst(0.01), burst(4.0)])
     assert alone.motions["motion"] == ["own motion"]
     assert both.motions["motion"] == ["own motion", "burst", "burst (2)"]
