@@ -29,7 +29,7 @@ class Result:
         self.__post_init__()
 
     def digest(self) -> str:
-        """SHA-256 of all its numbers, the same on every machine."""
+        """SHA-256 of all its arrays, the same on every machine. Numbers outside of arrays, and texts, are not in it."""
         hashed = sha256()
         for array in arrays(self):
             hashed.update(np.ascontiguousarray(array).tobytes())

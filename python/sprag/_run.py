@@ -54,7 +54,8 @@ class ErrorEstimate:
 class Run(SceneResult):
     """The response of a block with one device. Names are those of scipy.integrate.solve_ivp.
 
-    At a discontinuity, an impact or a switch of the clutch, two samples share their time: the left limit, then the right one.
+    At a discontinuity, an impact or a switch of the clutch, two samples share their time: the left limit, then the right one. An impact
+    whose later bounces are summed up to rest has the left one only; the next sample is that of rest.
 
     Attributes
     ----------
@@ -79,7 +80,7 @@ class Run(SceneResult):
     t_events
         Times of all impacts and of all switches of the clutch, s.
     y_events
-        y just after them, a row each.
+        y just after them, a row each; just before an impact whose later bounces are summed.
     peak_rotation
         max |θ|/α; None when overturned or lifted off.
     peak_acceleration
