@@ -97,6 +97,25 @@ def test_whole_numbers_of_any_length_are_within_a_range_or_not(size: int) -> Non
     assert "seed" in str(raised.value)
 
 
+@pytest.mark.parametrize(
+    ("table", "name", "key"),
+    [
+        (lambda word: sprag.Block(size_m=2.0, slenderness_deg=10.0, restitution=word), "restitution", "restitution"),
+        (lambda word: sprag.Sensors(suite=word), "suite", "sensors.suite"),
+        (lambda word: sprag.Gyroscope(preset=word), "preset", "sensors.gyroscope.preset"),
+        (lambda word: sprag.Accelerometer(preset=word), "preset", "sensors.block_accelerometer.preset"),
+        (lambda word: sprag.Encoder(preset=word), "preset", "sensors.encoder.preset"),
+    ],
+)
+def test_words_that_a_key_does_not_take_are_refused(table, name: str, key: str) -> None:
+    with pytest.raises(sprag.InputError) as raised:
+        table("foo")
+    assert (raised.value.key, raised.value.value) == (key, "foo")
+    known = "momentum-balance" if name == "restitution" else "ideal"
+    assert known in str(raised.value.range)
+    assert getattr(table(known), name) == known
+
+
 def test_errors_pickle() -> None:
     with pytest.raises(sprag.InputError) as raised:
         sprag.Block(size_m=-1.0, slenderness_deg=10.0)
