@@ -301,10 +301,10 @@ class Scene:
         if not isinstance(other, Scene):
             return NotImplemented
         one, two = self._native, other._native
-        return one.written() == two.written() and one.folder == two.folder and dict(one.records) == dict(two.records)
+        return one.resolved() == two.resolved() and one.folder == two.folder and dict(one.records) == dict(two.records)
 
     def __hash__(self) -> int:
-        return hash(self._native.written())
+        return hash(self._native.resolved())
 
     def __reduce__(self) -> tuple[Any, ...]:
         native = self._native

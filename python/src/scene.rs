@@ -88,12 +88,12 @@ impl Scene {
         toml::to_string(&self.table).map_err(refused)
     }
 
-    /// With defaults filled in, as JSON.
+    /// With defaults filled in, as JSON, by which scenes are compared.
     fn resolved(&self) -> PyResult<String> {
         serde_json::to_string(&self.scene.file).map_err(refused)
     }
 
-    /// The keys as they were written, as JSON, by which scenes are compared.
+    /// The keys as they were written, as JSON.
     fn written(&self) -> PyResult<String> {
         serde_json::to_string(&self.table).map_err(refused)
     }

@@ -54,6 +54,16 @@ def test_a_scene_is_changed_by_making_another() -> None:
         scene.title = "other"
 
 
+def test_scenes_of_equal_tables_are_equal() -> None:
+    whole = sprag.Block(size_m=2, slenderness_deg=10, inertia_ratio=4 / 3)
+    assert sprag.Block(size_m=2, slenderness_deg=10) == PIER
+    ground = sprag.Sine(amplitude_g=0.3, frequency_hz=1.0)
+    one, two = (sprag.Scene(block=block, ground=ground) for block in (PIER, whole))
+    assert one == two
+    assert hash(one) == hash(two)
+    assert one != two.set("block.size_m", 3)
+
+
 def test_records_in_memory_shake_as_their_files_do(scenes: Path) -> None:
     scene = sprag.Scene.read(scenes / "near_fault.toml")
     record = sprag.Record.read(scenes / "near_fault.csv")
