@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Sequence
@@ -149,4 +150,5 @@ def _command(words: Sequence[str | os.PathLike[str]], working_folder: Path) -> s
     if done.returncode == 0:
         return done.stdout
     said = done.stderr.splitlines() or [f"`sprag {words[0]!s}` ended with {done.returncode}"]
-    raise (InputError if done.returncode == 2 else RunError)(said[-1].removeprefix("sprag: "))
+    message = re.sub(r"; see sprag [\w -]*--help$", "", said[-1].removeprefix("sprag: "))
+    raise (InputError if done.returncode == 2 else RunError)(message)

@@ -69,13 +69,28 @@ pub trait Raise {
     fn raise(self) -> PyErr;
 }
 
+/// Leaves out the option of the command that advice ends with.
+fn without_option(words: &mut String) {
+    let Some((before, _)) = words.split_once(" --") else { return };
+    let before = [" or by", " or", " as in"].iter().find_map(|join| before.strip_suffix(join)).unwrap_or(before);
+    *words = before.trim_end_matches([',', ';']).to_owned();
+}
+
 impl Raise for SceneError {
-    fn raise(self) -> PyErr {
+    fn raise(mut self) -> PyErr {
+        match &mut self {
+            SceneError::Range { range: words, .. } | SceneError::Missing { needed: words, .. } => without_option(words),
+            SceneError::Conflict { key, reason, .. } => {
+                *key = key.trim_start_matches("--set ").to_owned();
+                without_option(reason);
+            }
+            SceneError::Syntax { .. } | SceneError::Unreadable { .. } | SceneError::TooLarge { .. } => {}
+        }
         let message = self.to_string();
         match &self {
             SceneError::Range { key, value, range, .. } => input(&message, Some(key), Some(value), Some(range)),
             SceneError::Missing { key, needed, .. } => input(&message, Some(key), None, Some(needed)),
-            SceneError::Conflict { key, .. } => input(&message, Some(key.trim_start_matches("--set ")), None, None),
+            SceneError::Conflict { key, .. } => input(&message, Some(key), None, None),
             SceneError::Syntax { key, .. } => input(&message, key.as_deref(), None, None),
             SceneError::Unreadable { .. } | SceneError::TooLarge { .. } => input(&message, None, None, None),
         }

@@ -124,8 +124,9 @@ def test_what_cannot_be_planned_is_refused(scenes: Path, tmp_path: Path) -> None
             sprag.run_part(tmp_path / "parts", index)
         assert (raised.value.key, raised.value.value) == ("index", index)
     for threads in (0, -1):
-        with pytest.raises(sprag.InputError, match="threads"):
+        with pytest.raises(sprag.InputError, match="threads") as raised:
             sprag.run_part(tmp_path / "parts", 1, threads=threads)
+        assert "--help" not in str(raised.value)
     assert sprag.Plan.read(tmp_path / "parts").missing() == [1, 2]
 
 

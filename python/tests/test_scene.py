@@ -164,6 +164,25 @@ def test_changes_that_cannot_be_are_refused_by_key(key: str, value: object, refu
     assert raised.value.key == refused
 
 
+def test_errors_say_nothing_of_the_command() -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0), device=sprag.Inerter(mass_ratio=0.5))
+    structures = "".join(f"[[structure]]\nname='{k}'\nset={{'block.size_m'={k}}}\n" for k in (1, 2))
+    study = sprag.Study(structures, records=triangle(1.0))
+    for call, key in [
+        (lambda: scene.set("block.frequency_parameter_1_s", 2.0), "block.size_m"),
+        (lambda: scene.set("ground", "x"), "ground"),
+        (lambda: sprag.map(scene), "map.x"),
+        (lambda: sprag.design(scene), "block.mass_kg"),
+        (lambda: study.set("block.size_m", 3.0), "block.size_m"),
+        (lambda: sprag.Study(structures), "records"),
+    ]:
+        with pytest.raises(sprag.InputError) as raised:
+            call()
+        assert raised.value.key == key
+        assert "--" not in str(raised.value)
+        assert str(raised.value)[-1].isalnum() or str(raised.value)[-1] in ")]"
+
+
 def test_a_text_is_refused_with_its_line() -> None:
     with pytest.raises(sprag.InputError, match=r"scene:3: .*`size_m`"):
         sprag.Scene.parse("\n[block]\nsiz_m = 2.0\nslenderness_deg = 10.0\n")
