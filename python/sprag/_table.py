@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from dataclasses import fields
-from functools import cache
 from typing import Any, ClassVar, Literal, get_args, get_origin, get_type_hints
 
 from . import _core
@@ -12,6 +11,9 @@ from .errors import InputError
 
 # What a table of the scene needs so that one inside it can be checked.
 NEEDED: dict[str, dict[str, Any]] = {"block": {"slenderness_deg": 10.0}, "device": {"kind": "clutched-pair"}}
+
+# Those of tables that had texts before.
+WORDS: dict[type[Table], dict[str, list[str]]] = {}
 
 
 class Table:
@@ -30,10 +32,11 @@ class Table:
         for name in reversed(inner):
             keys = [keys] if name == "0" else {name: keys}
         _core.check_table(first, NEEDED.get(first, {}) | keys)
-        for name, known in words(type(self)).items():
-            value = getattr(self, name)
-            if isinstance(value, str) and value not in known:
-                key, allowed = ".".join([*inner, name]), f"one of {', '.join(map(json.dumps, known))}"
+        texts = {name: value for name, value in vars(self).items() if isinstance(value, str)}
+        known = words(type(self)) if texts else {}
+        for name, value in texts.items():
+            if value not in known.get(name, [value]):
+                key, allowed = ".".join([*inner, name]), f"one of {', '.join(map(json.dumps, known[name]))}"
                 raise InputError(f"{first}: {key} is {json.dumps(value)}, but must be {allowed}", key, value, allowed)
 
     def _keys(self) -> dict[str, Any]:
@@ -46,12 +49,13 @@ class Table:
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in given if value is not None)})"
 
 
-@cache
-def words(table: type[Table]) -> dict[str, tuple[str, ...]]:
+def words(table: type[Table]) -> dict[str, list[str]]:
     """The words that keys of a table take, where they take no other text: those that the native module looks up in a whole scene only."""
-    kinds = {name: get_args(hint) for name, hint in get_type_hints(table).items()}
-    known = {name: [word for kind in of if get_origin(kind) is Literal for word in get_args(kind)] for name, of in kinds.items()}
-    return {name: tuple(found) for name, found in known.items() if found}
+    if table not in WORDS:
+        kinds = {name: get_args(hint) for name, hint in get_type_hints(table).items()}
+        known = {name: [word for kind in of if get_origin(kind) is Literal for word in get_args(kind)] for name, of in kinds.items()}
+        WORDS[table] = {name: found for name, found in known.items() if found}
+    return WORDS[table]
 
 
 def plain(value: Any) -> Any:
