@@ -72,7 +72,7 @@ pub trait Raise {
 /// Leaves out the option of the command that advice ends with.
 fn without_option(words: &mut String) {
     let Some((before, _)) = words.split_once(" --") else { return };
-    let before = [" or by", " or", " as in"].iter().find_map(|join| before.strip_suffix(join)).unwrap_or(before);
+    let before = [" or by", " or"].iter().find_map(|join| before.strip_suffix(join)).unwrap_or(before);
     *words = before.trim_end_matches([',', ';']).to_owned();
 }
 

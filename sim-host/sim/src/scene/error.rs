@@ -186,7 +186,7 @@ fn in_words(message: &str) -> Option<String> {
     let wanted = match wanted {
         "f64" => "a number",
         "a string" | "path string" | "string only" => "a text in quotes",
-        "a sequence" => "a list; of tables name one by its number, from 0, as in --set ground.0.scale=2",
+        "a sequence" => "a list; of tables name one by its number, from 0, as in ground.0.scale",
         "a map" => "a table",
         "a boolean" => "true or false",
         _ if wanted.starts_with("struct ") => "a table",
