@@ -1,8 +1,8 @@
 //! Impact of a block with a device, and the decision between rocking and rest after it.
 
 use super::mode_output::Shaking;
-use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, FlywheelState, GUARDS};
+use super::{Actuator, HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Coupling, DeviceState, FlywheelState, GUARDS};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
@@ -64,7 +64,7 @@ impl<S: Real> HybridSystem<S> {
         if !negligible && self.moves_its_clutches(&standing, velocity) {
             return time;
         }
-        let tail = self.accumulation(&standing, velocity.abs());
+        let tail = self.accumulation(&standing, &state.device, velocity.abs());
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
         observer.accumulation(&tail);
@@ -85,8 +85,25 @@ impl<S: Real> HybridSystem<S> {
         terminals.support.abs() < S::of(SLOW) * rack.abs()
     }
 
-    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
-    fn accumulation(&self, standing: &HybridState<S>, speed: S) -> Accumulation<S> {
+    /// Flywheels that stay locked to the rack through swings too short for what delays their clutches, which are as in `device` before them; none
+    /// where clutches follow every swing.
+    fn stuck(&self, device: &DeviceState<S>) -> Option<u32> {
+        let Actuator { engagement_delay, release_delay, dwell, controlled, .. } = self.actuator;
+        let delayed = engagement_delay.larger(release_delay).larger(dwell) > S::ZERO;
+        if !self.transmission.traits().commanded || controlled || !delayed {
+            return None;
+        }
+        let stays = |wheel: &FlywheelState<S>| match wheel.coupling {
+            Coupling::Locked => release_delay.larger(wheel.dwell) > S::ZERO,
+            // Once it is engaged it stays so.
+            _ => engagement_delay.larger(wheel.dwell) <= S::ZERO,
+        };
+        Some(device.wheels.iter().map(|wheel| u32::from(stays(wheel))).sum())
+    }
+
+    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]), before which the
+    /// device was `device`.
+    fn accumulation(&self, standing: &HybridState<S>, device: &DeviceState<S>, speed: S) -> Accumulation<S> {
         let side = standing.motion.side;
         let ScaledParameters { inertance, rack_coupling, rack_dry, bearing_dry, load_friction, .. } =
             self.transmission.parameters;
@@ -94,6 +111,8 @@ impl<S: Real> HybridSystem<S> {
         // There clutches stay as they are while such a block is on one side.
         let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
         let plates = self.transmission.parameters.capacity_of(&FlywheelState::default()).0;
+        // Only clutches that lock: plates and springs give way.
+        let stuck = self.stuck(device).filter(|_| !plates.is_finite() && !traits.springs && !carried);
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
@@ -106,8 +125,7 @@ impl<S: Real> HybridSystem<S> {
                     true => S::count(lifted.device.locked()),
                     // Swings as short as these leave a flywheel behind that slips viscously or hangs on a spring.
                     false if self.transmission.slips_viscously() || traits.springs => S::ZERO,
-                    false if inward || traits.permanent => S::ONE,
-                    false => S::ZERO,
+                    false => S::count(stuck.unwrap_or(u32::from(inward || traits.permanent))),
                 };
                 let rate = |inertance: S, bearings: S| {
                     let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;

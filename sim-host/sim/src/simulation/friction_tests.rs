@@ -61,6 +61,31 @@ fn the_rest_threshold_does_not_show_beside_clutches() {
     }
 }
 
+/// Swings that are shorter than what delays the clutches find them as they are: neither the end nor the largest acceleration is that of clutches that
+/// follow every swing.
+#[test]
+fn the_rest_threshold_does_not_show_beside_late_clutches() {
+    for (engagement, actuation) in [
+        ("", "engagement_delay_s = 0.05, release_delay_s = 0.06"),
+        ("", "release_delay_s = 0.05"),
+        ("", "engagement_delay_s = 0.05"),
+        ("", "dwell_s = 0.08"),
+        ("", "release_delay_s = 0.05, delay = 'transport'"),
+        (
+            "engagement = 'rigid', flywheel = { brake_deceleration_m_s2 = 'instant' }, ",
+            "engagement_delay_s = 0.05, release_delay_s = 0.06",
+        ),
+    ] {
+        let device = format!("kind = 'clutched-pair', {engagement}actuation = {{ {actuation} }}");
+        let [followed, summed @ ..] = [1e-12, 1e-9, 1e-6, 1e-4].map(|speed| run(&device, speed));
+        for run in summed {
+            let [(end, peak), (exact, largest)] = [&run, &followed].map(|run| (run.end_time_s, run.peak_acceleration.unwrap()));
+            assert!((end / exact - 1.0).abs() < 2e-5, "{device}: ends at {end} and {exact}");
+            assert!((peak / largest - 1.0).abs() < 1e-3, "{device}: {peak} and {largest}");
+        }
+    }
+}
+
 /// A block that sets out so slowly that its rates are constant is at rest after v (1/a₁ + 1/√(a₁a₂))/(1 − η √(a₂/a₁)), with a₁ as it rises
 /// and a₂ as it falls. The bearings of the last inerter slow its flywheel down faster than the weight does the block, so that the rack
 /// drives it outward too.
