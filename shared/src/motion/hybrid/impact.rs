@@ -145,7 +145,10 @@ impl<S: Real> HybridSystem<S> {
             // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
             (over(false, -load_friction).larger(over(false, load_friction)), over(true, load_friction))
         };
-        Accumulation::of(rates(side), rates(side.opposite()), self.restitution[0], speed, self.counted_speed)
+        // As it hits, the block has the flywheels that it has as it falls.
+        let hits = if traits.through_impacts { stuck.unwrap_or(1) } else { 0 };
+        let restitution = self.restitution[hits.min(2) as usize];
+        Accumulation::of(rates(side), rates(side.opposite()), restitution, speed, self.counted_speed)
     }
 
     /// Signs and modes of a block that has just been released.

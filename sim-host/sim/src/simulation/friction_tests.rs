@@ -86,6 +86,34 @@ fn the_rest_threshold_does_not_show_beside_late_clutches() {
     }
 }
 
+/// By momentum balance a flywheel that is locked through an impact changes what the impact takes, in the last bounces as before them.
+#[test]
+fn the_last_bounces_take_what_impacts_with_flywheels_do() {
+    for device in [
+        "kind = 'inerter', rack = { dry_friction_ratio = 0.001 }",
+        "kind = 'clutched-pair', engagement = 'rigid', flywheel = { brake_deceleration_m_s2 = 'instant' }",
+    ] {
+        let [followed, summed @ ..] = [1e-12, 1e-6, 1e-4].map(|speed| {
+            let text = format!(
+                "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG}, restitution = 'momentum-balance', initial_rotation_ratio = 0.5 }}
+                device = [{{ mass_ratio = 1.0, {device} }}]
+                run = {{ free_time_s = 40.0, rest_speed_ratio = {speed:e} }}"
+            );
+            let scene = Scene::parse(&text, "scene").unwrap();
+            simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+        });
+        for run in summed {
+            assert_eq!(run.impacts, followed.impacts, "{device}");
+            assert!(
+                (run.end_time_s / followed.end_time_s - 1.0).abs() < 5e-6,
+                "{device}: {} {}",
+                run.end_time_s,
+                followed.end_time_s
+            );
+        }
+    }
+}
+
 /// A block that sets out so slowly that its rates are constant is at rest after v (1/a₁ + 1/√(a₁a₂))/(1 − η √(a₂/a₁)), with a₁ as it rises
 /// and a₂ as it falls. The bearings of the last inerter slow its flywheel down faster than the weight does the block, so that the rack
 /// drives it outward too.
