@@ -99,8 +99,7 @@ fn the_last_bounces_take_what_impacts_with_flywheels_do() {
                 device = [{{ mass_ratio = 1.0, {device} }}]
                 run = {{ free_time_s = 40.0, rest_speed_ratio = {speed:e} }}"
             );
-            let scene = Scene::parse(&text, "scene").unwrap();
-            simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0)
+            runs_of(&text).remove(0)
         });
         for run in summed {
             assert_eq!(run.impacts, followed.impacts, "{device}");
