@@ -73,12 +73,11 @@ pub fn answer<R: Comparable, F>(accuracy: Accuracy, mut run: impl FnMut(Closenes
         let mut check = |tolerance| -> Result<Compared<R::Outcome>, F> { Ok(run(Closeness { tolerance })?.compared()) };
         let error = if tolerance > 100.0 * TIGHT {
             let closer = (CLOSER * tolerance).clamp(AS_CLOSE[0], LARGEST_CHECK);
-            let first = check(closer)?;
-            if first.repeats(&found) {
-                ErrorEstimate::of(&found, &[first, check(AS_CLOSE[0])?], Checks::Closer(AS_CLOSE[0]))
-            } else {
-                ErrorEstimate::of(&found, &[first], Checks::Closer(closer))
+            let mut checks = vec![check(closer)?];
+            if checks[0].repeats(&found) {
+                checks.push(check(AS_CLOSE[0])?);
             }
+            ErrorEstimate::of(&found, &checks, Checks::Closer(closer))
         } else {
             ErrorEstimate::of(&found, &[check(AS_CLOSE[0])?, check(AS_CLOSE[1])?], Checks::AsClose)
         };
