@@ -39,6 +39,9 @@ pub struct BlockState<S> {
     pub impacts: u32,
 }
 
+/// Relative distance from [`Limits::overturned`] within which a motion is at its end.
+const AT_THE_END: f64 = 1e-9;
+
 impl<S: Real> BlockState<S> {
     /// Level that θ passes on its way to `rotation`, and the sign of θ less it before: 0 at an impact, or the limit of overturning.
     #[inline]
@@ -69,6 +72,13 @@ impl<S: Real> BlockState<S> {
     /// Moves outward at |θ| of `angle` (rad) or beyond.
     pub(super) fn is_outward_at(&self, angle: S) -> bool {
         self.side == self.direction && self.side.times(self.rotation) >= angle
+    }
+
+    /// Whether this motion has ended as it reaches θ = `rotation` (rad), but for rounding: where a lever is zero there, rounding would decide
+    /// whether its clutch switches just before.
+    pub(super) fn ends_at(&self, rotation: S, limits: &Limits<S>) -> bool {
+        let margin = S::of(AT_THE_END).larger(S::of(16.0) * S::EPSILON);
+        self.side == self.direction && self.side.times(rotation) >= limits.overturned * (S::ONE - margin)
     }
 
     /// Ends a motion at `time` (s), on ground that has come to rest: a block that moves outward at `no_return` (rad,
@@ -147,16 +157,4 @@ pub struct Limits<S> {
     pub overturned: S,
     /// Events that one call may follow.
     pub events: u32,
-}
-
-/// Relative distance from [`Limits::overturned`] within which a motion is at its end.
-const AT_THE_END: f64 = 1e-9;
-
-impl<S: Real> Limits<S> {
-    /// Whether a motion ends at θ = `rotation` (rad), or within rounding beyond: where a lever is zero there, rounding would decide whether its
-    /// clutch switches just before.
-    pub(super) fn ends_at(&self, rotation: S) -> bool {
-        let margin = S::of(AT_THE_END).larger(S::of(16.0) * S::EPSILON);
-        rotation.abs() >= self.overturned * (S::ONE - margin)
-    }
 }

@@ -281,7 +281,7 @@ impl<S: Real> HybridSystem<S> {
         for guard in 0..guards {
             if law.watch[guard] != Guard::Nothing
                 && let Some(zero) = output.guard_zero(guard, until, state.fresh[guard])
-                && !limits.ends_at(output.at(zero).rotation)
+                && !motion.ends_at(output.at(zero).rotation, limits)
             {
                 (until, end) = (zero, End::Guard(guard));
             }

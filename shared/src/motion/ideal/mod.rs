@@ -223,7 +223,7 @@ impl<S: Real> IdealSystem<S> {
                 for to in [bound, length] {
                     zero = output
                         .switching_zero(from, to, state.terminal_acceleration_sign, acceleration_is_zero)
-                        .filter(|&zero| zero <= bound && !limits.ends_at(output.at(zero).rotation));
+                        .filter(|&zero| zero <= bound && !state.ends_at(output.at(zero).rotation, limits));
                     // Just after a switch rounding may show the old sign as far as a zero of θ̈ that follows at once: only a longer look
                     // distinguishes that from a switch back.
                     if acceleration_zero.is_none() || zero.is_none_or(|zero| zero > (*time + length) * S::EPSILON) {
