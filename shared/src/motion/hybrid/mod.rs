@@ -272,8 +272,8 @@ impl<S: Real> HybridSystem<S> {
         let mut until = length;
         let mut end = End::Reached;
         let signs_change = !output.keeps_signs(motion.direction);
-        let turn_by = |until| output.velocity_zero(until, motion.direction, motion.velocity == S::ZERO);
-        let turn = if signs_change && !held { turn_by(until) } else { None };
+        let turns = signs_change && !held;
+        let turn = if turns { output.velocity_zero(length, motion.direction, motion.velocity == S::ZERO) } else { None };
         if let Some(turn) = turn {
             (until, end) = (turn, End::Turn);
         }
