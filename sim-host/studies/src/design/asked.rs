@@ -1,5 +1,6 @@
 //! What a device and its sensors are asked for under one motion, until its end or the fall of a block that overturns.
 
+use sprag_shared::math;
 use sprag_shared::observers::checks::Extreme;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::GRAVITY;
@@ -62,11 +63,10 @@ impl Asked {
         // A mount that the scene has is one that has a lever.
         let lever = |rotation: f64| mount.lever_at(&scene.block, scene.geometry(), rotation).unwrap_or(0.0);
         let upwards = GRAVITY + ground.vertical.as_ref().map_or(0.0, |vertical| vertical.peak_m_s2());
+        let (sine, cosine) = math::sin_cos(scene.block.slenderness());
         let mut jump = Extreme { value: 0.0, time: 0.0 };
         for pair in samples.windows(2).filter(|pair| pair[0].time_s == pair[1].time_s) {
             let (before, after) = (pair[0].velocity_rad_s, pair[1].velocity_rad_s);
-            let slenderness = scene.block.slenderness();
-            let (sine, cosine) = (sprag_shared::math::sin(slenderness), sprag_shared::math::cos(slenderness));
             // At an impact the block goes down about one toe and up about the other.
             let value = if pair[1].rotation_rad.abs() < IMPACT {
                 size * hypotenuse(cosine * (after - before), sine * (after.abs() + before.abs()))
@@ -128,7 +128,7 @@ fn whole_run(value: f64) -> Extreme<f64> {
 }
 
 fn hypotenuse(a: f64, b: f64) -> f64 {
-    sprag_shared::math::square_root(a * a + b * b)
+    math::square_root(a * a + b * b)
 }
 
 /// The samples of `run` before |θ| passes α (rad) without coming back.
