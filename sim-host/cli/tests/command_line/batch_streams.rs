@@ -244,6 +244,16 @@ fn parquet_results_are_replaced_by_those_of_the_same_cases() {
     assert!(said(&batch(&cases, &out, &[])).contains("line 2: device"));
 }
 
+/// What `child` leaves that is told to end; its input stays open until it has.
+#[cfg(unix)]
+fn terminated(mut child: Child) -> Output {
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    let input = child.stdin.take();
+    let ended = child.wait_with_output().unwrap();
+    drop(input);
+    ended
+}
+
 /// Even when it waits for its input, and is ended where it is.
 #[cfg(unix)]
 #[test]
@@ -257,11 +267,7 @@ fn termination_leaves_nothing_beside_the_place_of_results() {
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
     assert_eq!(files(), 1);
-    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-    // The input stays open until it has ended.
-    let input = child.stdin.take();
-    let ended = child.wait_with_output().unwrap();
-    drop(input);
+    let ended = terminated(child);
     assert_eq!((ended.status.code(), files()), (Some(143), 0), "{}", said(&ended));
     assert!(said(&ended).ends_with("sprag: interrupted; nothing was written\n"), "{}", said(&ended));
 }
@@ -278,11 +284,7 @@ fn an_interrupted_stream_says_that_rows_may_have_been_written() {
     let mut first = String::new();
     BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut first).unwrap();
     assert!(first.starts_with("id,outcome,"), "{first}");
-    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-    // The input stays open until it has ended.
-    let input = child.stdin.take();
-    let ended = child.wait_with_output().unwrap();
-    drop(input);
+    let ended = terminated(child);
     assert_eq!(ended.status.code(), Some(143), "{}", said(&ended));
     assert!(said(&ended).ends_with("sprag: interrupted; some rows may have been written\n"), "{}", said(&ended));
 }
