@@ -53,7 +53,7 @@ impl Scene {
     #[pyo3(signature = (keys, *, records = Vec::new(), folder = PathBuf::new(), origin = "scene"))]
     fn new(keys: &Bound<'_, PyDict>, records: Named, folder: PathBuf, origin: &str) -> PyResult<Scene> {
         let table = table(keys)?;
-        let read = SimScene::of_table(table.clone(), origin, &[]).map_err(|error| error.raise())?;
+        let read = SimScene::of_table(table.clone(), origin).map_err(|error| error.raise())?;
         Ok(Scene::of(keys.py(), table, read, folder, records))
     }
 
@@ -79,7 +79,7 @@ impl Scene {
         let mut table = self.table.clone();
         let origin = &self.scene.origin;
         overrides::apply(&mut table, &change(key, value)?, origin).map_err(|error| error.raise())?;
-        let read = SimScene::of_table(table.clone(), origin, &[]).map_err(|error| error.raise())?;
+        let read = SimScene::of_table(table.clone(), origin).map_err(|error| error.raise())?;
         Ok(Scene::of(py, table, read, self.scene.folder.clone(), records))
     }
 

@@ -28,7 +28,7 @@ pub fn grid(scene: &str, changes: &[&str]) -> Grid {
     for change in changes {
         overrides::apply(&mut table, change, &origin).expect("a key");
     }
-    let mut scene = Scene::of_table(table.clone(), &origin, &[]).expect("a scene");
+    let mut scene = Scene::of_table(table.clone(), &origin).expect("a scene");
     scene.folder = path.parent().expect("a folder").to_owned();
     Grid::new(scene, table).expect("axes")
 }

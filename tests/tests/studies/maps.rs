@@ -101,7 +101,7 @@ fn maps_of_closed_loops_are_symmetric_and_need_a_pair() {
     let refused = |change: &str| {
         let mut table = document::table(text, "scene").expect("TOML");
         sprag_sim::scene::overrides::apply(&mut table, change, "scene").expect("a key");
-        let scene = Scene::of_table(table.clone(), "scene", &[]);
+        let scene = Scene::of_table(table.clone(), "scene");
         scene.and_then(|scene| Grid::new(scene, table)).map(|grid| grid.mapped().len()).map_err(|error| error.to_string())
     };
     assert!(refused("title=a").unwrap_err().starts_with("scene: map.laws: a closed loop needs"));

@@ -74,8 +74,8 @@ impl PageScene {
     /// [`SceneError`] names the key and what it may be.
     pub fn set(&self, settings: &[String]) -> Result<String, SceneError> {
         let mut table = self.table.clone();
-        settings.iter().try_for_each(|setting| overrides::apply(&mut table, setting, ORIGIN))?;
-        Scene::of_table(table.clone(), ORIGIN, &[])?;
+        overrides::apply_all(&mut table, settings, ORIGIN)?;
+        Scene::of_table(table.clone(), ORIGIN)?;
         Ok(table.to_string())
     }
 
@@ -101,7 +101,7 @@ impl PageScene {
         let grid = self.grid()?;
         let mut table = self.table.clone();
         let settings = grid.settings(grid.values(column, row));
-        settings.iter().try_for_each(|setting| overrides::apply(&mut table, setting, ORIGIN))?;
+        overrides::apply_all(&mut table, &settings, ORIGIN)?;
         table.remove("map");
         Ok(table.to_string())
     }

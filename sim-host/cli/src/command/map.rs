@@ -16,7 +16,7 @@ use sprag_sim::record::{RecordSummary, warning_lines};
 use sprag_sim::scene::ground::GroundTable;
 use sprag_sim::scene::map::AxisTable;
 use sprag_sim::scene::schema::SceneFile;
-use sprag_sim::scene::{Scene, SceneError, document, text_of};
+use sprag_sim::scene::{Scene, SceneError, document, overrides, text_of};
 use sprag_studies::map::boundary_figure;
 use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
@@ -224,13 +224,11 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
             changes.push(format!("map.{name}={}", toml::Value::try_from(axis).map_err(refused)?));
         }
     }
-    for change in &changes {
-        sprag_sim::scene::overrides::apply(&mut table, change, &origin)?;
-    }
+    overrides::apply_all(&mut table, &changes, &origin)?;
     let with_records = arguments.records.is_given();
     let mut written = None;
     if with_records {
-        let mut place = Scene::of_table(table.clone(), &origin, &[])?;
+        let mut place = Scene::of_table(table.clone(), &origin)?;
         arguments.records.apply(&mut place)?;
         for (name, tables) in [("ground", &place.file.ground), ("vertical", &place.file.vertical)] {
             put(&mut table, name, tables);
@@ -244,7 +242,7 @@ fn grid(arguments: &MapArguments) -> Result<(Grid, SceneFile), SceneError> {
     let mut scene = if changes.is_empty() && !with_records && !arguments.cut {
         Scene::parse(&text, &origin)?
     } else {
-        Scene::of_table(table.clone(), &origin, &[])?
+        Scene::of_table(table.clone(), &origin)?
     };
     scene.folder = arguments.scene.scene.parent().map(Path::to_path_buf).unwrap_or_default();
     let mut file = scene.file.clone();

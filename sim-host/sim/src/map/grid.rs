@@ -12,7 +12,7 @@ use crate::scene::controller::LawName;
 use crate::scene::ground::Motion;
 use crate::scene::map::{AxisTable, MapTable};
 use crate::scene::schema::RestitutionValue;
-use crate::scene::{Scene, SceneDevice, SceneError};
+use crate::scene::{Scene, SceneDevice, SceneError, overrides};
 use crate::side_by_side::{self, OnlyRecords, Shaking};
 
 /// A scene with the axes of its map.
@@ -222,7 +222,9 @@ impl Grid {
     /// # Errors
     /// [`SceneError`] for a value outside its range.
     pub fn scene_at(&self, values: Values) -> Result<Scene, SceneError> {
-        let mut scene = Scene::of_table(self.text.clone(), &self.scene.origin, &self.settings(values))?;
+        let mut table = self.text.clone();
+        overrides::apply_all(&mut table, &self.settings(values), &self.scene.origin)?;
+        let mut scene = Scene::of_table(table, &self.scene.origin)?;
         scene.folder.clone_from(&self.scene.folder);
         scene.given.clone_from(&self.scene.given);
         scene.overturned_at = self.scene.overturned_at;
@@ -336,7 +338,7 @@ mod tests {
 
     fn grid_of(scene: &str, axes: &str) -> Result<Grid, SceneError> {
         let text: Table = toml::from_str(&format!("{scene}\n{axes}")).unwrap();
-        Grid::new(Scene::of_table(text.clone(), "scene", &[])?, text)
+        Grid::new(Scene::of_table(text.clone(), "scene")?, text)
     }
 
     /// A cell made from the scene's own block is the cell read as a scene.

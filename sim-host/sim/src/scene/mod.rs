@@ -91,20 +91,15 @@ impl Scene {
             return Scene::parse(text, origin);
         }
         let mut table = document::table(text, origin)?;
-        for item in overrides {
-            overrides::apply(&mut table, item.as_ref(), origin)?;
-        }
-        Scene::of_table(table, origin, &[])
+        overrides::apply_all(&mut table, overrides, origin)?;
+        Scene::of_table(table, origin)
     }
 
-    /// The scene in `table` with overrides (`KEY=VALUE`).
+    /// The scene in `table`.
     ///
     /// # Errors
-    /// The errors of [`Scene::parse_with`].
-    pub fn of_table(mut table: toml::Table, origin: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-        for item in overrides {
-            overrides::apply(&mut table, item, origin)?;
-        }
+    /// As [`Scene::parse`].
+    pub fn of_table(table: toml::Table, origin: &str) -> Result<Scene, SceneError> {
         Scene::check(document::from_table(table, origin)?, origin)
     }
 

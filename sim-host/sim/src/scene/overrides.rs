@@ -35,6 +35,14 @@ pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneErr
     place.put(path, last, given).map_err(|reason| refuse(path, reason))
 }
 
+/// [`apply`] of each of `items` in turn.
+///
+/// # Errors
+/// As [`apply`], at the first that it refuses.
+pub fn apply_all(table: &mut Table, items: &[impl AsRef<str>], origin: &str) -> Result<(), SceneError> {
+    items.iter().try_for_each(|item| apply(table, item.as_ref(), origin))
+}
+
 /// The items of `list` that commas separate, but for commas in TOML's brackets, braces and quotes:
 /// `block.size_m=2, device.0={ kind = "inerter", mass_ratio = 0.5 }` has two.
 pub fn items(list: &str) -> impl Iterator<Item = &str> {

@@ -187,7 +187,7 @@ mod tests {
             ground = [{ motion = 'sine', amplitude_ratio = 3.0, frequency_ratio = 2.0 }]
             map.x = { key = 'ground.0.amplitude_ratio', from = 1.0, to = 9.0, cells = 5 }";
         let text: toml::Table = toml::from_str(scene).unwrap();
-        let grid = Grid::new(Scene::of_table(text.clone(), "scene", &[]).unwrap(), text).unwrap();
+        let grid = Grid::new(Scene::of_table(text.clone(), "scene").unwrap(), text).unwrap();
         let mut tally = Tally::new(&grid);
         for row in 0..grid.table_rows() {
             let outcome = if overturn[row / 5] { Outcome::OverturnedAfterImpact } else { Outcome::Safe };

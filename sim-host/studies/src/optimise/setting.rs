@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::schema::{DeviceTable, KeyOf};
-use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::scene::{Scene, SceneError, overrides};
 
 use super::law::Law;
 
@@ -44,10 +44,11 @@ impl SettingTable {
         let device = DeviceTable { mass_ratio: Some(mass_ratio), ..law.device.clone() };
         let mut with = scene.with_device(device)?;
         with.file.controller.clone_from(&law.controller);
-        let table = toml::Table::try_from(&with.file)
+        let mut table = toml::Table::try_from(&with.file)
             .map_err(|error| KeyPath { origin: scene.origin.clone(), key: self.key.clone() }.conflict(&error.to_string()))?;
         let key = if self.of_controller() { self.key.clone() } else { format!("device.0.{}", self.key) };
-        let changed = Scene::of_table(table, &scene.origin, &[format!("{key}={value:?}")])?;
+        overrides::apply(&mut table, &format!("{key}={value:?}"), &scene.origin)?;
+        let changed = Scene::of_table(table, &scene.origin)?;
         let device = changed.file.device.into_iter().next().unwrap_or_else(|| law.device.clone());
         Ok(Law {
             name: format!("{} [{} = {value}]", law.name, self.key),

@@ -12,7 +12,7 @@ fn scene(text: &str) -> Result<Scene, String> {
     let mut scene: toml::Table = SCENE.parse().unwrap();
     let controller = toml::Table::from_iter([("sensors".to_owned(), text.parse::<toml::Table>().unwrap().into())]);
     scene.insert("controller".to_owned(), controller.into());
-    Scene::of_table(scene, "scene", &[]).map_err(|error| error.to_string())
+    Scene::of_table(scene, "scene").map_err(|error| error.to_string())
 }
 
 fn table(text: &str) -> Result<SensorsTable, String> {
