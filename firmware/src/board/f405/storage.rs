@@ -1,7 +1,7 @@
 //! Sectors of the flash that are not the program's: see `memory.x`. They are programmed and erased by 32 bits at once, which the chip allows
 //! above 2.7 V: below 2.8 V it is held in reset.
 
-use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash};
 use stm32f4xx_hal::flash::FlashExt;
 use stm32f4xx_hal::pac;
 
@@ -24,27 +24,6 @@ pub struct Storage<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> {
     flash: pac::FLASH,
     /// They have been changed since the caches were emptied.
     changed: bool,
-}
-
-/// What went wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// Beyond the sectors.
-    OutOfBounds,
-    /// Not at whole words, or not of whole sectors.
-    NotAligned,
-    /// The flash did not take it.
-    Refused,
-}
-
-impl NorFlashError for Error {
-    fn kind(&self) -> NorFlashErrorKind {
-        match self {
-            Error::OutOfBounds => NorFlashErrorKind::OutOfBounds,
-            Error::NotAligned => NorFlashErrorKind::NotAligned,
-            Error::Refused => NorFlashErrorKind::Other,
-        }
-    }
 }
 
 impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> Storage<FIRST, SECTORS, SECTOR> {
@@ -91,7 +70,7 @@ impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> Storage<FIRST, SECT
     /// Waits for the end of what the flash does; its errors.
     fn finish(flash: &pac::FLASH) -> Result<(), Error> {
         while flash.sr().read().bsy().bit_is_set() {}
-        if flash.sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(Error::Refused) }
+        if flash.sr().read().bits() & ERRORS == 0 { Ok(()) } else { Err(Error::Other) }
     }
 }
 

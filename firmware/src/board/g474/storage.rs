@@ -6,7 +6,7 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash};
 use stm32g4::stm32g474 as pac;
 
 /// First address of the flash, and of its bank 2.
@@ -59,29 +59,6 @@ pub struct Storage {
     changed: bool,
 }
 
-/// What went wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Error {
-    /// Beyond the sectors.
-    OutOfBounds,
-    /// Not at whole words, or not of whole sectors.
-    NotAligned,
-    /// The flash did not take it: it is not blank, or is not in two banks (option DBANK).
-    Refused,
-    /// What is there is not what was programmed.
-    Broken,
-}
-
-impl NorFlashError for Error {
-    fn kind(&self) -> NorFlashErrorKind {
-        match self {
-            Error::OutOfBounds => NorFlashErrorKind::OutOfBounds,
-            Error::NotAligned => NorFlashErrorKind::NotAligned,
-            Error::Refused | Error::Broken => NorFlashErrorKind::Other,
-        }
-    }
-}
-
 impl Storage {
     /// Of a chip whose flash nothing else programs.
     pub fn new() -> Storage {
@@ -98,21 +75,21 @@ impl Storage {
         if offset.is_multiple_of(4) && length.is_multiple_of(4) { Ok(()) } else { Err(Error::NotAligned) }
     }
 
-    /// The word at an offset.
+    /// The word at an offset, if it is as it was programmed.
     fn word(offset: u32) -> Result<u32, Error> {
         match double(2 * offset) {
             Some([u32::MAX, u32::MAX]) => Ok(u32::MAX),
             Some([word, other]) if other == !word => Ok(word),
-            _ => Err(Error::Broken),
+            _ => Err(Error::Other),
         }
     }
 }
 
-/// Does `work` with the registers unlocked, unless the flash is one bank.
+/// Does `work` with the registers unlocked, unless the flash is one bank (option DBANK).
 fn unlocked(work: impl FnOnce(&'static pac::flash::RegisterBlock) -> Result<(), Error>) -> Result<(), Error> {
     let flash = flash();
     if flash.optr().read().dbank().bit_is_clear() {
-        return Err(Error::Refused);
+        return Err(Error::Other);
     }
     for key in KEYS {
         // SAFETY: the keys are what the register takes.
@@ -138,7 +115,7 @@ fn finish(flash: &pac::flash::RegisterBlock) -> Result<(), Error> {
         || state.pgaerr().bit_is_set()
         || state.sizerr().bit_is_set()
         || state.pgserr().bit_is_set();
-    if refused { Err(Error::Refused) } else { Ok(()) }
+    if refused { Err(Error::Other) } else { Ok(()) }
 }
 
 /// Erases pages of bank 2.
@@ -281,7 +258,7 @@ impl ReadNorFlash for Recordings {
             forget_cached();
         }
         for (place, to) in (RECORDINGS + offset..).step_by(8).zip(bytes.chunks_exact_mut(8)) {
-            let [first, second] = double(place).ok_or(Error::Broken)?;
+            let [first, second] = double(place).ok_or(Error::Other)?;
             to.iter_mut().zip(first.to_le_bytes().into_iter().chain(second.to_le_bytes())).for_each(|(to, byte)| *to = byte);
         }
         Ok(())

@@ -5,7 +5,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use super::lose_power;
 use crate::memory::Lasting;
-use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash};
+use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash};
 
 /// Bytes of a sector; the board's have 16 KiB, which would only take longer to fill.
 const SECTOR: usize = 4096;
@@ -84,26 +84,16 @@ impl<const COUNT: usize> Flash<COUNT> {
     }
 }
 
-/// Outside of the sectors.
-#[derive(Debug)]
-pub struct OutOfBounds;
-
-impl NorFlashError for OutOfBounds {
-    fn kind(&self) -> NorFlashErrorKind {
-        NorFlashErrorKind::OutOfBounds
-    }
-}
-
 impl<const COUNT: usize> ErrorType for Flash<COUNT> {
-    type Error = OutOfBounds;
+    type Error = Error;
 }
 
 impl<const COUNT: usize> ReadNorFlash for Flash<COUNT> {
     const READ_SIZE: usize = 1;
 
-    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), OutOfBounds> {
+    fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
         let start = offset as usize;
-        let from = self.bytes().get(start..start.saturating_add(bytes.len())).ok_or(OutOfBounds)?;
+        let from = self.bytes().get(start..start.saturating_add(bytes.len())).ok_or(Error::OutOfBounds)?;
         bytes.copy_from_slice(from);
         Ok(())
     }
@@ -117,14 +107,14 @@ impl<const COUNT: usize> NorFlash for Flash<COUNT> {
     const WRITE_SIZE: usize = 1;
     const ERASE_SIZE: usize = SECTOR;
 
-    fn erase(&mut self, from: u32, to: u32) -> Result<(), OutOfBounds> {
-        self.bytes().get_mut(from as usize..to as usize).ok_or(OutOfBounds)?.fill(0xFF);
+    fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
+        self.bytes().get_mut(from as usize..to as usize).ok_or(Error::OutOfBounds)?.fill(0xFF);
         Ok(())
     }
 
-    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), OutOfBounds> {
+    fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
         let start = offset as usize;
-        let into = self.bytes().get_mut(start..start.saturating_add(bytes.len())).ok_or(OutOfBounds)?;
+        let into = self.bytes().get_mut(start..start.saturating_add(bytes.len())).ok_or(Error::OutOfBounds)?;
         for (into, byte) in into.iter_mut().zip(bytes) {
             let left = LEFT.load(Ordering::Relaxed);
             if left == 0 {
