@@ -1,7 +1,9 @@
 //! Sectors of the flash that are not the program's: see `memory.x`. They are programmed and erased by 32 bits at once, which the chip allows
 //! above 2.7 V: below 2.8 V it is held in reset.
 
-use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash};
+use embedded_storage::nor_flash::{
+    ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash, check_erase, check_read, check_write,
+};
 use stm32f4xx_hal::flash::FlashExt;
 use stm32f4xx_hal::pac;
 
@@ -35,12 +37,6 @@ impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> Storage<FIRST, SECT
         // SAFETY: the application uses one after the other, in one task. Beside it only the start of the clocks uses the registers, for the
         // latency, which programming leaves alone.
         Storage { flash: unsafe { pac::FLASH::steal() }, changed: false }
-    }
-
-    fn within(from: u32, length: usize) -> Result<(), Error> {
-        let inside =
-            u32::try_from(length).ok().and_then(|length| from.checked_add(length)).is_some_and(|end| end <= SECTORS * SECTOR);
-        if inside { Ok(()) } else { Err(Error::OutOfBounds) }
     }
 
     /// What the caches hold of the sectors is old: they are emptied, which the chip allows only while they are off.
@@ -82,7 +78,7 @@ impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> ReadNorFlash for St
     const READ_SIZE: usize = 1;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
-        Self::within(offset, bytes.len())?;
+        check_read(self, offset, bytes.len())?;
         if core::mem::take(&mut self.changed) {
             self.forget_cached();
         }
@@ -104,10 +100,7 @@ impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> NorFlash for Storag
     const ERASE_SIZE: usize = SECTOR as usize;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
-        Self::within(from, to.checked_sub(from).ok_or(Error::OutOfBounds)? as usize)?;
-        if !(from.is_multiple_of(SECTOR) && to.is_multiple_of(SECTOR)) {
-            return Err(Error::NotAligned);
-        }
+        check_erase(self, from, to)?;
         self.unlocked(|flash| {
             (from / SECTOR..to / SECTOR).try_for_each(|sector| {
                 // SAFETY: the sector exists, and is not the program's.
@@ -119,10 +112,7 @@ impl<const FIRST: u8, const SECTORS: u32, const SECTOR: u32> NorFlash for Storag
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
-        Self::within(offset, bytes.len())?;
-        if !(offset.is_multiple_of(4) && bytes.len().is_multiple_of(4)) {
-            return Err(Error::NotAligned);
-        }
+        check_write(self, offset, bytes.len())?;
         self.unlocked(|flash| {
             flash.cr().modify(|_, w| w.psize().psize32().pg().set_bit());
             (offset..).step_by(4).zip(bytes.chunks_exact(4)).try_for_each(|(offset, bytes)| {

@@ -6,7 +6,9 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use embedded_storage::nor_flash::{ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash};
+use embedded_storage::nor_flash::{
+    ErrorType, NorFlash, NorFlashErrorKind as Error, ReadNorFlash, check_erase, check_read, check_write,
+};
 use stm32g4::stm32g474 as pac;
 
 /// First address of the flash, and of its bank 2.
@@ -63,16 +65,6 @@ impl Storage {
     /// Of a chip whose flash nothing else programs.
     pub fn new() -> Storage {
         Storage { changed: false }
-    }
-
-    fn within(from: u32, length: usize) -> Result<(), Error> {
-        let inside =
-            u32::try_from(length).ok().and_then(|length| from.checked_add(length)).is_some_and(|end| end <= SECTORS * SECTOR);
-        if inside { Ok(()) } else { Err(Error::OutOfBounds) }
-    }
-
-    fn aligned(offset: u32, length: usize) -> Result<(), Error> {
-        if offset.is_multiple_of(4) && length.is_multiple_of(4) { Ok(()) } else { Err(Error::NotAligned) }
     }
 
     /// The word at an offset, if it is as it was programmed.
@@ -185,8 +177,7 @@ impl ReadNorFlash for Storage {
     const READ_SIZE: usize = 4;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
-        Storage::within(offset, bytes.len())?;
-        Storage::aligned(offset, bytes.len())?;
+        check_read(self, offset, bytes.len())?;
         if core::mem::take(&mut self.changed) {
             forget_cached();
         }
@@ -206,17 +197,13 @@ impl NorFlash for Storage {
     const ERASE_SIZE: usize = SECTOR as usize;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
-        Storage::within(from, to.checked_sub(from).ok_or(Error::OutOfBounds)? as usize)?;
-        if !(from.is_multiple_of(SECTOR) && to.is_multiple_of(SECTOR)) {
-            return Err(Error::NotAligned);
-        }
+        check_erase(self, from, to)?;
         self.changed = true;
         erase_pages(2 * from / PAGE..2 * to / PAGE)
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
-        Storage::within(offset, bytes.len())?;
-        Storage::aligned(offset, bytes.len())?;
+        check_write(self, offset, bytes.len())?;
         self.changed = true;
         program(2 * offset, bytes.chunks_exact(4).map(word_of).map(|word| [word, !word]))
     }
@@ -233,16 +220,6 @@ impl Recordings {
     pub fn new() -> Recordings {
         Recordings { changed: false }
     }
-
-    fn within(from: u32, length: usize, step: u32) -> Result<(), Error> {
-        let length = u32::try_from(length).map_err(|_| Error::OutOfBounds)?;
-        let inside = from.checked_add(length).is_some_and(|end| end <= BANK - RECORDINGS);
-        match inside {
-            false => Err(Error::OutOfBounds),
-            true if from.is_multiple_of(step) && length.is_multiple_of(step) => Ok(()),
-            true => Err(Error::NotAligned),
-        }
-    }
 }
 
 impl ErrorType for Recordings {
@@ -253,7 +230,7 @@ impl ReadNorFlash for Recordings {
     const READ_SIZE: usize = 8;
 
     fn read(&mut self, offset: u32, bytes: &mut [u8]) -> Result<(), Error> {
-        Recordings::within(offset, bytes.len(), 8)?;
+        check_read(self, offset, bytes.len())?;
         if core::mem::take(&mut self.changed) {
             forget_cached();
         }
@@ -274,13 +251,13 @@ impl NorFlash for Recordings {
     const ERASE_SIZE: usize = PAGE as usize;
 
     fn erase(&mut self, from: u32, to: u32) -> Result<(), Error> {
-        Recordings::within(from, to.checked_sub(from).ok_or(Error::OutOfBounds)? as usize, PAGE)?;
+        check_erase(self, from, to)?;
         self.changed = true;
         erase_pages((RECORDINGS + from) / PAGE..(RECORDINGS + to) / PAGE)
     }
 
     fn write(&mut self, offset: u32, bytes: &[u8]) -> Result<(), Error> {
-        Recordings::within(offset, bytes.len(), 8)?;
+        check_write(self, offset, bytes.len())?;
         self.changed = true;
         program(
             RECORDINGS + offset,
