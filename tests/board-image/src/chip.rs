@@ -334,9 +334,22 @@ impl Chip {
                 self.private.read(address, self.half_cycles)
             };
         }
-        match self.model {
-            Model::F405 => self.load_f4(address),
-            Model::G474 => self.load_g4(address),
+        if !self.rcc.clocks(base) {
+            return 0;
+        }
+        let [slow, _] = self.timer_hz;
+        // Where both models have the same.
+        match base {
+            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
+            0x4000_0C00 => self.load_time(offset, slow),
+            0x4000_0800 => self.encoder.read(offset),
+            0x4000_3000 => self.watchdog.read(offset),
+            0x4000_3800 => self.buses[1].read(offset),
+            0x4000_7000 => self.supply.read_power(offset),
+            0x4001_3000 => self.buses[0].read(offset),
+            0x4002_3000 => self.crc.read(offset),
+            _ if self.model == Model::G474 => self.load_g4(address),
+            _ => self.load_f4(address),
         }
     }
 
@@ -355,9 +368,33 @@ impl Chip {
             }
             return;
         }
-        match self.model {
-            Model::F405 => self.store_f4(address, value),
-            Model::G474 => self.store_g4(address, value),
+        if !self.rcc.clocks(base) {
+            return;
+        }
+        let [slow, fast] = self.peripheral_hz;
+        match base {
+            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
+            0x4000_0C00 => self.store_time(offset, value),
+            0x4000_0800 => self.encoder.write(offset, value),
+            0x4000_3000 => {
+                self.watchdog.write(offset, value, self.now);
+                self.event = self.next_event();
+            }
+            0x4000_3800 => {
+                let busy = self.buses[1].write(offset, value, slow, self.now);
+                self.pass(busy);
+            }
+            0x4000_7000 => {
+                self.supply.write_power(offset, value);
+                self.pend_detector();
+            }
+            0x4001_3000 => {
+                let busy = self.buses[0].write(offset, value, fast, self.now);
+                self.pass(busy);
+            }
+            0x4002_3000 => self.crc.write(offset, value),
+            _ if self.model == Model::G474 => self.store_g4(address, value),
+            _ => self.store_f4(address, value),
         }
     }
 

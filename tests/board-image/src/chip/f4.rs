@@ -1,4 +1,4 @@
-//! Where the registers of an F4 are (RM0090, section 2.3).
+//! Where the registers of an F4 are (RM0090, section 2.3), beside those that a G4 has, too.
 
 use super::Chip;
 
@@ -11,18 +11,8 @@ impl Chip {
             0x1FFF_7A20 => return 1024 << 16,
             _ => {}
         }
-        if !self.rcc.clocks(base) {
-            return 0;
-        }
-        let [slow, _] = self.timer_hz;
         match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
-            0x4000_0C00 => self.load_time(offset, slow),
-            0x4000_0800 => self.encoder.read(offset),
             0x4000_2800 => self.backup.read(offset),
-            0x4000_3000 => self.watchdog.read(offset),
-            0x4000_3800 => self.buses[1].read(offset),
-            0x4000_7000 => self.supply.read_power(offset),
             0x4001_0400 => {
                 self.advance_coils();
                 self.modulation.read(offset)
@@ -37,10 +27,8 @@ impl Chip {
                 }
                 value
             }
-            0x4001_3000 => self.buses[0].read(offset),
             0x4001_3C00 => self.supply.read_lines(offset),
             0x4002_0000..=0x4002_2000 => self.ports[(base >> 10 & 15) as usize].read(offset),
-            0x4002_3000 => self.crc.read(offset),
             0x4002_3800 => self.rcc.read(offset, self.now),
             0x4002_3C00 => self.flash.read(offset),
             0x4002_4000..0x4002_5000 => self.backup.load(address & 0xFFC),
@@ -52,27 +40,8 @@ impl Chip {
 
     pub(super) fn store_f4(&mut self, address: u32, value: u32) {
         let (base, offset) = (address & !0x3FF, address & 0x3FC);
-        if !self.rcc.clocks(base) {
-            return;
-        }
-        let [slow, fast] = self.peripheral_hz;
         match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
-            0x4000_0C00 => self.store_time(offset, value),
-            0x4000_0800 => self.encoder.write(offset, value),
             0x4000_2800 => self.backup.write(offset, value, self.supply.backup_writable()),
-            0x4000_3000 => {
-                self.watchdog.write(offset, value, self.now);
-                self.event = self.next_event();
-            }
-            0x4000_3800 => {
-                let busy = self.buses[1].write(offset, value, slow, self.now);
-                self.pass(busy);
-            }
-            0x4000_7000 => {
-                self.supply.write_power(offset, value);
-                self.pend_detector();
-            }
             0x4001_0400 => {
                 self.advance_coils();
                 let clock = self.timer_hz[1];
@@ -81,10 +50,6 @@ impl Chip {
             0x4001_1000 => self.line.write(offset, value),
             0x4001_2000 if offset >= 0x300 => self.converters.set(offset, value),
             0x4001_2000 => self.converter.write(offset, value),
-            0x4001_3000 => {
-                let busy = self.buses[0].write(offset, value, fast, self.now);
-                self.pass(busy);
-            }
             0x4001_3C00 => {
                 self.supply.write_lines(offset, value);
                 self.pend_detector();
@@ -94,7 +59,6 @@ impl Chip {
                 self.ports[(base >> 10 & 15) as usize].write(offset, value);
                 self.select_sensors();
             }
-            0x4002_3000 => self.crc.write(offset, value),
             0x4002_3800 => {
                 if let Some(base) = self.rcc.write(offset, value, self.now) {
                     self.reset_peripheral(base);
@@ -107,7 +71,7 @@ impl Chip {
             }
             0x4002_4000..0x4002_5000 => self.backup.store(address & 0xFFC, value, self.supply.backup_writable()),
             0x4002_6000 => self.copier.write(offset, value),
-            0x4002_6400 => self.line.write_stream(offset, value, &self.ram, fast, self.now),
+            0x4002_6400 => self.line.write_stream(offset, value, &self.ram, self.peripheral_hz[1], self.now),
             _ => _ = self.nobody(address),
         }
     }

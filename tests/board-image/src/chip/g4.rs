@@ -1,4 +1,4 @@
-//! Where the registers of a G4 are (RM0440, memory map).
+//! Where the registers of a G4 are (RM0440, memory map), beside those that an F4 has, too.
 
 use super::Chip;
 use crate::peripheral::flash::g4::BANK_2;
@@ -29,21 +29,10 @@ impl Chip {
             0x1FFF_75E0 => return 512,
             _ => {}
         }
-        if !self.rcc.clocks(base) {
-            return 0;
-        }
-        let [slow, _] = self.timer_hz;
         match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].read(offset, slow, self.now),
-            0x4000_0C00 => self.load_time(offset, slow),
-            0x4000_0800 => self.encoder.read(offset),
             0x4000_2400 if offset >= BACKUP => self.backup.read(offset - BACKUP + BACKUP_OF_F4),
-            0x4000_3000 => self.watchdog.read(offset),
-            0x4000_3800 => self.buses[1].read(offset),
-            0x4000_7000 => self.supply.read_power(offset),
             0x4001_0000 => self.comparators.registers.get(offset),
             0x4001_0400 => self.supply.read_lines(offset),
-            0x4001_3000 => self.buses[0].read(offset),
             0x4001_3400 => {
                 self.advance_coils();
                 self.modulation.read(offset)
@@ -55,7 +44,6 @@ impl Chip {
             0x4002_0800 => self.line.multiplexer.get(offset),
             0x4002_1000 => self.rcc.read(offset, self.now),
             0x4002_2000 => self.flash.read(offset),
-            0x4002_3000 => self.crc.read(offset),
             0x4800_0000..=0x4800_1800 => self.ports[(base >> 10 & 15) as usize].read(offset),
             0x5000_0000 if offset >= 0x300 => self.converters.get(offset),
             0x5000_0000 => {
@@ -69,28 +57,9 @@ impl Chip {
 
     pub(super) fn store_g4(&mut self, address: u32, value: u32) {
         let (base, offset) = (address & !0x3FF, address & 0x3FC);
-        if !self.rcc.clocks(base) {
-            return;
-        }
-        let [slow, fast] = self.peripheral_hz;
         match base {
-            0x4000_0000 | 0x4000_0400 => self.counters[(base >> 10 & 1) as usize].write(offset, value, self.now),
-            0x4000_0C00 => self.store_time(offset, value),
-            0x4000_0800 => self.encoder.write(offset, value),
             0x4000_2400 if offset >= BACKUP => {
                 self.backup.write(offset - BACKUP + BACKUP_OF_F4, value, self.supply.backup_writable());
-            }
-            0x4000_3000 => {
-                self.watchdog.write(offset, value, self.now);
-                self.event = self.next_event();
-            }
-            0x4000_3800 => {
-                let busy = self.buses[1].write(offset, value, slow, self.now);
-                self.pass(busy);
-            }
-            0x4000_7000 => {
-                self.supply.write_power(offset, value);
-                self.pend_detector();
             }
             0x4001_0000 => {
                 self.advance_coils();
@@ -100,10 +69,6 @@ impl Chip {
                 self.supply.write_lines(offset, value);
                 self.pend_detector();
             }
-            0x4001_3000 => {
-                let busy = self.buses[0].write(offset, value, fast, self.now);
-                self.pass(busy);
-            }
             0x4001_3400 => {
                 self.advance_coils();
                 let clock = self.timer_hz[1];
@@ -111,7 +76,7 @@ impl Chip {
             }
             0x4001_3800 => self.line.write(offset, value),
             0x4002_0000 if (0x08..0x18).contains(&offset) => self.copier.write(offset, value),
-            0x4002_0000 => self.line.write_stream(offset, value, &self.ram, fast, self.now),
+            0x4002_0000 => self.line.write_stream(offset, value, &self.ram, self.peripheral_hz[1], self.now),
             0x4002_0800 => self.line.multiplexer.set(offset, value),
             0x4002_1000 => {
                 if let Some(base) = self.rcc.write(offset, value, self.now) {
@@ -126,7 +91,6 @@ impl Chip {
                     self.reset = Some(Cause::OptionReload);
                 }
             }
-            0x4002_3000 => self.crc.write(offset, value),
             0x4800_0000..=0x4800_1800 => {
                 self.advance_coils();
                 self.ports[(base >> 10 & 15) as usize].write(offset, value);
