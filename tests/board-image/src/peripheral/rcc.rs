@@ -108,14 +108,12 @@ impl Rcc {
 
     /// Rate of the core's clock, 1/s.
     pub fn core_hz(&self) -> u64 {
-        if self.model == Model::G474 {
-            return self.core_hz_g4();
-        }
         let configuration = self.registers.get(CFGR);
-        let hz = match configuration >> 2 & 3 {
-            0 => HSI,
-            1 => self.crystal_hz,
-            _ => self.pll_hz(),
+        let hz = match (self.model, configuration >> 2 & 3) {
+            (Model::F405, 1) | (Model::G474, 2) => self.crystal_hz,
+            (Model::F405, 2..) => self.pll_hz(),
+            (Model::G474, 3) => self.pll_hz_g4(),
+            _ => HSI,
         };
         match configuration >> 4 & 15 {
             divider @ 8..=11 => hz >> (divider - 7),
@@ -198,26 +196,30 @@ impl Rcc {
 
     /// A store. Gives the base of a peripheral that is reset by it, if one is.
     pub fn write(&mut self, offset: u32, value: u32, now: u64) -> Option<u32> {
-        if self.model == Model::G474 {
-            return self.write_g4(offset, value, now);
-        }
         match offset {
             CR => {
+                let (lock, read_only, internal) = match self.model {
+                    Model::F405 => (LOCK, 2, (value & 1) << 1),
+                    Model::G474 => (g4::LOCK, 0, g4::HSI_RUNS),
+                };
                 let starts = |on: u32, at: Option<u64>, time: u64| (value & on != 0).then(|| at.unwrap_or(now + time));
                 self.crystal_at = starts(HSE_ON, self.crystal_at, CRYSTAL_START);
-                self.pll_at = starts(PLL_ON, self.pll_at, LOCK);
-                self.registers.set(CR, value & !(HSE_READY | PLL_READY | 2) | (value & 1) << 1);
+                self.pll_at = starts(PLL_ON, self.pll_at, lock);
+                self.registers.set(CR, value & !(HSE_READY | PLL_READY | read_only) | internal);
             }
             CFGR => {
                 let wanted = value & 3;
-                let ready = match wanted {
-                    0 => true,
-                    1 => self.crystal_runs(now),
-                    _ => self.pll_at.is_some_and(|at| now >= at),
+                let locked = self.pll_at.is_some_and(|at| now >= at);
+                let ready = match (self.model, wanted) {
+                    (Model::F405, 1) | (Model::G474, 2) => self.crystal_runs(now),
+                    (Model::F405, 2..) => locked,
+                    (Model::G474, 3) => locked && self.registers.has(g4::PLLCFGR, g4::PLL_R_ON),
+                    _ => true,
                 };
                 let current = if ready { wanted } else { self.registers.get(CFGR) >> 2 & 3 };
                 self.registers.set(CFGR, value & !0xC | current << 2);
             }
+            _ if self.model == Model::G474 => return self.write_g4(offset, value),
             CIR if value & CSS_CLEAR != 0 => self.registers.set(CIR, value & !(CSS_CLEAR | CSS_FLAG)),
             CSR => {
                 let flags = if value & 1 << 24 != 0 { 0 } else { self.registers.get(CSR) & 0xFE00_0000 };
@@ -235,15 +237,16 @@ impl Rcc {
 
     /// The crystal stops. Whether the clock security system has seen it, which then has changed to the internal oscillator.
     pub fn crystal_stops(&mut self) -> bool {
-        if self.model == Model::G474 {
-            return self.crystal_stops_g4();
-        }
         self.crystal = false;
         let seen = self.registers.has(CR, CSS_ON | HSE_ON);
         if seen {
             self.registers.set(CR, self.registers.get(CR) & !(HSE_ON | PLL_ON | CSS_ON));
-            self.registers.set(CFGR, self.registers.get(CFGR) & !0xF);
-            self.registers.set(CIR, self.registers.get(CIR) | CSS_FLAG);
+            let (internal, flags, flag) = match self.model {
+                Model::F405 => (0, CIR, CSS_FLAG),
+                Model::G474 => (g4::FROM_HSI, g4::CIFR, g4::CSS_FLAG),
+            };
+            self.registers.set(CFGR, self.registers.get(CFGR) & !0xF | internal);
+            self.registers.set(flags, self.registers.get(flags) | flag);
             (self.crystal_at, self.pll_at) = (None, None);
         }
         seen

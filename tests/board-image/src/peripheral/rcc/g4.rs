@@ -1,28 +1,29 @@
 //! RCC of the G4 (RM0440, RCC).
 
 use super::super::registers::Registers;
-use super::{CR, CSS_ON, Cause, HSE_ON, HSE_READY, HSI, PLL_ON, PLL_READY, Rcc};
+use super::{CFGR, CR, Cause, HSI, Rcc};
 use crate::time::microseconds;
 
-const CFGR: u32 = 0x08;
-const PLLCFGR: u32 = 0x0C;
-const CIFR: u32 = 0x1C;
+pub(super) const PLLCFGR: u32 = 0x0C;
+pub(super) const CIFR: u32 = 0x1C;
 const CICR: u32 = 0x20;
 const AHB1RSTR: u32 = 0x28;
 const APB2RSTR: u32 = 0x40;
 const AHB1ENR: u32 = 0x48;
 pub(super) const CSR: u32 = 0x94;
 
+/// Of RCC_CFGR: the internal oscillator is wanted, and current.
+pub(super) const FROM_HSI: u32 = 5;
 /// HSION and HSIRDY.
-const HSI_RUNS: u32 = 1 << 8 | 1 << 10;
-const PLL_R_ON: u32 = 1 << 24;
-const CSS_FLAG: u32 = 1 << 8;
+pub(super) const HSI_RUNS: u32 = 1 << 8 | 1 << 10;
+pub(super) const PLL_R_ON: u32 = 1 << 24;
+pub(super) const CSS_FLAG: u32 = 1 << 8;
 /// The flags of resets, of RCC_CSR.
 const FLAGS: u32 = 0xFE00_0000;
 const REMOVE_FLAGS: u32 = 1 << 23;
 
 /// The PLL's lock: 40 µs at most (DS12288).
-const LOCK: u64 = microseconds(40);
+pub(super) const LOCK: u64 = microseconds(40);
 
 /// Flags in RCC_CSR: the supply's coming and its sag are the same one.
 fn flags(cause: Cause) -> u32 {
@@ -42,25 +43,11 @@ pub(super) fn registers(before: Option<&Rcc>, cause: Cause) -> Registers {
         Some(rcc) if cause != Cause::Power => rcc.registers.get(CSR) & FLAGS,
         _ => 0,
     };
-    Registers::of(&[(CR, HSI_RUNS), (CFGR, 5), (PLLCFGR, 0x1000), (AHB1ENR, 1 << 8), (CSR, before | flags(cause))])
+    Registers::of(&[(CR, HSI_RUNS), (CFGR, FROM_HSI), (PLLCFGR, 0x1000), (AHB1ENR, 1 << 8), (CSR, before | flags(cause))])
 }
 
 impl Rcc {
-    pub(super) fn core_hz_g4(&self) -> u64 {
-        let configuration = self.registers.get(CFGR);
-        let hz = match configuration >> 2 & 3 {
-            2 => self.crystal_hz,
-            3 => self.pll_hz_g4(),
-            _ => HSI,
-        };
-        match configuration >> 4 & 15 {
-            divider @ 8..=11 => hz >> (divider - 7),
-            divider @ 12.. => hz >> (divider - 6),
-            _ => hz,
-        }
-    }
-
-    fn pll_hz_g4(&self) -> u64 {
+    pub(super) fn pll_hz_g4(&self) -> u64 {
         let word = self.registers.get(PLLCFGR);
         let source = if word & 3 == 3 { self.crystal_hz } else { HSI };
         let field = |shift: u32, mask: u32| u64::from(word >> shift & mask);
@@ -89,24 +76,8 @@ impl Rcc {
         self.registers.has(offset, 1 << bit)
     }
 
-    pub(super) fn write_g4(&mut self, offset: u32, value: u32, now: u64) -> Option<u32> {
+    pub(super) fn write_g4(&mut self, offset: u32, value: u32) -> Option<u32> {
         match offset {
-            CR => {
-                let starts = |on: u32, at: Option<u64>, time: u64| (value & on != 0).then(|| at.unwrap_or(now + time));
-                self.crystal_at = starts(HSE_ON, self.crystal_at, super::CRYSTAL_START);
-                self.pll_at = starts(PLL_ON, self.pll_at, LOCK);
-                self.registers.set(CR, value & !(HSE_READY | PLL_READY) | HSI_RUNS);
-            }
-            CFGR => {
-                let wanted = value & 3;
-                let ready = match wanted {
-                    2 => self.crystal_runs(now),
-                    3 => self.pll_at.is_some_and(|at| now >= at) && self.registers.has(PLLCFGR, PLL_R_ON),
-                    _ => true,
-                };
-                let current = if ready { wanted } else { self.registers.get(CFGR) >> 2 & 3 };
-                self.registers.set(CFGR, value & !0xC | current << 2);
-            }
             // Locked while the PLL runs.
             PLLCFGR if self.pll_at.is_some() => {}
             CIFR => {}
@@ -123,18 +94,6 @@ impl Rcc {
             _ => self.registers.set(offset, value),
         }
         None
-    }
-
-    pub(super) fn crystal_stops_g4(&mut self) -> bool {
-        self.crystal = false;
-        let seen = self.registers.has(CR, CSS_ON | HSE_ON);
-        if seen {
-            self.registers.set(CR, self.registers.get(CR) & !(HSE_ON | PLL_ON | CSS_ON));
-            self.registers.set(CFGR, self.registers.get(CFGR) & !0xF | 5);
-            self.registers.set(CIFR, self.registers.get(CIFR) | CSS_FLAG);
-            (self.crystal_at, self.pll_at) = (None, None);
-        }
-        seen
     }
 }
 
