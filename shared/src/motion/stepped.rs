@@ -11,33 +11,30 @@ use crate::motion::ground_pair::GroundPair;
 use crate::motion::observer::{MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
 
-/// What changes within a step.
-pub(super) trait Place<S>: Copy {
-    /// θ and θ̇; of rates, θ̇ and θ̈.
-    fn turn(&self) -> [S; 2];
+/// What changes within a step: θ and θ̇, a length over R and its speed, and energy lost over mR²; or the rates of all five.
+pub(super) type Place<S> = [S; 5];
 
-    /// The place with `rates` for `h`.
-    fn after(&self, rates: &Self, h: S) -> Self;
+/// The place with `rates` for `h`.
+fn after<S: Real>(place: &Place<S>, rates: &Place<S>, h: S) -> Place<S> {
+    core::array::from_fn(|i| place[i] + h * rates[i])
 }
 
 /// The state of a block, with the mode that lasts through a step.
 pub(super) trait Mode<S: Real>: Copy {
     /// Its equations.
     type System;
-    /// What of it changes.
-    type Place: Place<S>;
 
     /// The block.
     fn block(&self) -> &BlockState<S>;
 
     /// Where it is.
-    fn place(&self) -> Self::Place;
+    fn place(&self) -> Place<S>;
 
     /// The same mode elsewhere.
-    fn at(&self, place: &Self::Place) -> Self;
+    fn at(&self, place: &Place<S>) -> Self;
 
     /// Rates of the place on ground that has ü_g/g and the weight 1 + v̈_g/g.
-    fn rates(&self, system: &Self::System, ground: [S; 2]) -> Self::Place;
+    fn rates(&self, system: &Self::System, ground: [S; 2]) -> Place<S>;
 }
 
 /// Dense output of a step.
@@ -48,7 +45,7 @@ pub(super) struct Stretch<'a, S: Real, M: Mode<S>> {
     ground: GroundPair<'a, S>,
     time: S,
     length: S,
-    end: M::Place,
+    end: Place<S>,
 }
 
 impl<'a, S: Real, M: Mode<S>> Stretch<'a, S, M> {
@@ -59,16 +56,17 @@ impl<'a, S: Real, M: Mode<S>> Stretch<'a, S, M> {
         stretch
     }
 
-    fn step(&self, h: S) -> M::Place {
+    fn step(&self, h: S) -> Place<S> {
         let start = self.mode.place();
-        let rates = |place: &M::Place, ground| self.mode.at(place).rates(self.system, ground);
+        let rates = |place: &Place<S>, ground| self.mode.at(place).rates(self.system, ground);
         let [middle, end] = [S::HALF * h, h].map(|t| self.ground(t));
         let first = rates(&start, self.ground(S::ZERO));
-        let second = rates(&start.after(&first, S::HALF * h), middle);
-        let third = rates(&start.after(&second, S::HALF * h), middle);
-        let fourth = rates(&start.after(&third, h), end);
-        let both = second.after(&third, S::ONE);
-        start.after(&first.after(&both, S::of(2.0)).after(&fourth, S::ONE), h * S::of(1.0 / 6.0))
+        let second = rates(&after(&start, &first, S::HALF * h), middle);
+        let third = rates(&after(&start, &second, S::HALF * h), middle);
+        let fourth = rates(&after(&start, &third, h), end);
+        let both = after(&second, &third, S::ONE);
+        let sum = after(&after(&first, &both, S::of(2.0)), &fourth, S::ONE);
+        after(&start, &sum, h * S::of(1.0 / 6.0))
     }
 
     /// ü_g/g and the weight 1 + v̈_g/g `time` (s) after the start.
@@ -118,8 +116,8 @@ impl<S: Real, M: Mode<S>> DenseOutput<S> for Stretch<'_, S, M> {
 
     fn at(&self, time: S) -> Motion<S> {
         let state = self.state(time);
-        let [rotation, velocity] = state.place().turn();
-        let [_, acceleration] = state.rates(self.system, self.ground(time)).turn();
+        let BlockState { rotation, velocity, .. } = *state.block();
+        let [_, acceleration, ..] = state.rates(self.system, self.ground(time));
         Motion { rotation, velocity, acceleration }
     }
 

@@ -17,16 +17,6 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::state::BlockState;
 
-/// What changes within a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(in crate::motion) struct Place<S> {
-    pub rotation: S,
-    pub velocity: S,
-    pub height: S,
-    pub rise: S,
-    pub spent: S,
-}
-
 /// Accelerations in the present mode.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<S> {

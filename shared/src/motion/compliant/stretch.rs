@@ -1,13 +1,13 @@
 //! One step of a block on its feet: its rates, and what ends its mode.
 
-use super::balance::{Balance, Place};
+use super::balance::Balance;
 use super::{CompliantState, CompliantSystem, Foot};
 use crate::drivetrain::transmission::Account;
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::state::BlockState;
-use crate::motion::stepped::{self, Mode};
+use crate::motion::stepped::{self, Mode, Place};
 
 /// A function that is positive for as long as nothing happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,6 @@ pub(super) type Stretch<'a, S> = stepped::Stretch<'a, S, CompliantState<S>>;
 
 impl<S: Real> Mode<S> for CompliantState<S> {
     type System = CompliantSystem<S>;
-    type Place = Place<S>;
 
     fn block(&self) -> &BlockState<S> {
         &self.motion
@@ -42,18 +41,18 @@ impl<S: Real> Mode<S> for CompliantState<S> {
 
     fn place(&self) -> Place<S> {
         let BlockState { rotation, velocity, .. } = self.motion;
-        Place { rotation, velocity, height: self.height, rise: self.rise, spent: self.spent }
+        [rotation, velocity, self.height, self.rise, self.spent]
     }
 
     fn at(&self, place: &Place<S>) -> CompliantState<S> {
-        let Place { rotation, velocity, height, rise, spent } = *place;
+        let [rotation, velocity, height, rise, spent] = *place;
         CompliantState { motion: BlockState { rotation, velocity, ..self.motion }, height, rise, spent, ..*self }
     }
 
     /// θ̇, θ̈, ẏ/R, ÿ/R, power of the dashpots.
     fn rates(&self, system: &CompliantSystem<S>, ground: [S; 2]) -> Place<S> {
         let Balance { acceleration, lift, loss, .. } = system.balance(self, ground);
-        Place { rotation: self.motion.velocity, velocity: acceleration, height: self.rise, rise: lift, spent: loss }
+        [self.motion.velocity, acceleration, self.rise, lift, loss]
     }
 }
 
@@ -79,22 +78,6 @@ impl<S: Real> Stretch<'_, S> {
                 motion.terminal_acceleration_sign.times(system.balance(&state, self.ground(time)).push)
             }
             Guard::Push => S::ONE,
-        }
-    }
-}
-
-impl<S: Real> stepped::Place<S> for Place<S> {
-    fn turn(&self) -> [S; 2] {
-        [self.rotation, self.velocity]
-    }
-
-    fn after(&self, rates: &Place<S>, h: S) -> Place<S> {
-        Place {
-            rotation: self.rotation + h * rates.rotation,
-            velocity: self.velocity + h * rates.velocity,
-            height: self.height + h * rates.height,
-            rise: self.rise + h * rates.rise,
-            spent: self.spent + h * rates.spent,
         }
     }
 }

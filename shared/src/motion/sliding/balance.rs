@@ -11,21 +11,6 @@ use super::SlidingSystem;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 
-/// Rotation and slide of a block at an instant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::motion) struct Place<S> {
-    /// θ, rad.
-    pub rotation: S,
-    /// θ̇, rad/s.
-    pub velocity: S,
-    /// x/R.
-    pub displacement: S,
-    /// ẋ/R, 1/s.
-    pub slip: S,
-    /// Energy lost to friction over mR², 1/s².
-    pub spent: S,
-}
-
 /// Accelerations, and reactions of the ground over mR; 1/s².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Balance<S> {

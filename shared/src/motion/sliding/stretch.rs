@@ -1,12 +1,12 @@
 //! One step of a block that rocks or slides: its rates, and what ends its mode.
 
-use super::balance::{Balance, Place};
+use super::balance::Balance;
 use super::{Contact, SlidingState, SlidingSystem};
 use crate::math::scalar::Real;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::state::{BlockState, Phase};
-use crate::motion::stepped::{self, Mode};
+use crate::motion::stepped::{self, Mode, Place};
 
 /// A function that is positive for as long as nothing happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,6 @@ pub(super) type Stretch<'a, S> = stepped::Stretch<'a, S, SlidingState<S>>;
 
 impl<S: Real> Mode<S> for SlidingState<S> {
     type System = SlidingSystem<S>;
-    type Place = Place<S>;
 
     fn block(&self) -> &BlockState<S> {
         &self.motion
@@ -43,11 +42,11 @@ impl<S: Real> Mode<S> for SlidingState<S> {
 
     fn place(&self) -> Place<S> {
         let BlockState { rotation, velocity, .. } = self.motion;
-        Place { rotation, velocity, displacement: self.displacement, slip: self.slip, spent: self.spent }
+        [rotation, velocity, self.displacement, self.slip, self.spent]
     }
 
     fn at(&self, place: &Place<S>) -> SlidingState<S> {
-        let Place { rotation, velocity, displacement, slip, spent } = *place;
+        let [rotation, velocity, displacement, slip, spent] = *place;
         SlidingState { motion: BlockState { rotation, velocity, ..self.motion }, displacement, slip, spent, ..*self }
     }
 
@@ -56,13 +55,9 @@ impl<S: Real> Mode<S> for SlidingState<S> {
         let balance = system.balance(self, ground);
         let turns = self.motion.phase == Phase::Rocking;
         let slides = self.contact != Contact::Sticks;
-        Place {
-            rotation: if turns { self.motion.velocity } else { S::ZERO },
-            velocity: balance.acceleration,
-            displacement: if slides { self.slip } else { S::ZERO },
-            slip: balance.slide,
-            spent: if slides { -balance.along * self.slip } else { S::ZERO },
-        }
+        let turning = if turns { self.motion.velocity } else { S::ZERO };
+        let (sliding, loss) = if slides { (self.slip, -balance.along * self.slip) } else { (S::ZERO, S::ZERO) };
+        [turning, balance.acceleration, sliding, balance.slide, loss]
     }
 }
 
@@ -88,22 +83,6 @@ impl<S: Real> Stretch<'_, S> {
                 self.system.friction * normal - along.abs()
             }
             _ => S::ONE,
-        }
-    }
-}
-
-impl<S: Real> stepped::Place<S> for Place<S> {
-    fn turn(&self) -> [S; 2] {
-        [self.rotation, self.velocity]
-    }
-
-    fn after(&self, rates: &Place<S>, h: S) -> Place<S> {
-        Place {
-            rotation: self.rotation + h * rates.rotation,
-            velocity: self.velocity + h * rates.velocity,
-            displacement: self.displacement + h * rates.displacement,
-            slip: self.slip + h * rates.slip,
-            spent: self.spent + h * rates.spent,
         }
     }
 }
