@@ -96,7 +96,7 @@ macro_rules! match_transmission {
             TransmissionKind::Ideal => known!(ideal::IdealPair::<false>),
             TransmissionKind::Overrunning => known!(overrunning::OverrunningPair),
             TransmissionKind::Elastic => known!(elastic::ElasticPair),
-            TransmissionKind::LoadedRigid => known!(load_friction::Loaded($crate::drivetrain::rigid::RigidPair::<false>)),
+            TransmissionKind::LoadedRigid => known!(load_friction::Loaded($crate::drivetrain::rigid::RigidPair)),
             $($(TransmissionKind::$alias)|+ => known!($type),)+
         }
     }};
@@ -113,9 +113,9 @@ macro_rules! each_transmission {
             IdealOnSupport => $crate::drivetrain::on_support::OnSupport::<true>,
             LoadedSingle => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::Single::<true>),
             LoadedIdeal => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::IdealPair::<true>),
-            ViscousSingle => $crate::drivetrain::viscous::ViscousPair::<true>,
-            Viscous => $crate::drivetrain::viscous::ViscousPair::<false>,
-            Rigid | DraggedRigid => $crate::drivetrain::rigid::RigidPair::<true>,
+            ViscousSingle => $crate::drivetrain::viscous::DashpotPair::<true, true>,
+            Viscous => $crate::drivetrain::viscous::DashpotPair::<true, false>,
+            Rigid | DraggedRigid => $crate::drivetrain::viscous::DashpotPair::<false, false>,
             Friction | DraggedFriction => $crate::drivetrain::friction::FrictionPair::<true>,
         )
     };
@@ -129,9 +129,9 @@ macro_rules! each_flow {
             SingleWithFriction | IdealWithFriction => $crate::drivetrain::ideal::IdealPair::<true>,
             SingleOnSupport | IdealOnSupport => $crate::drivetrain::on_support::OnSupport::<true>,
             LoadedSingle | LoadedIdeal => $crate::drivetrain::load_friction::Loaded($crate::drivetrain::ideal::IdealPair::<true>),
-            Rigid => $crate::drivetrain::rigid::RigidPair::<false>,
+            Rigid => $crate::drivetrain::rigid::RigidPair,
             Friction => $crate::drivetrain::friction::FrictionPair::<false>,
-            ViscousSingle | Viscous | DraggedRigid | DraggedFriction => $crate::drivetrain::viscous::ViscousPair::<false>,
+            ViscousSingle | Viscous | DraggedRigid | DraggedFriction => $crate::drivetrain::viscous::DashpotPair::<true, false>,
         )
     };
 }

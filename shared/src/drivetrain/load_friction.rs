@@ -129,7 +129,7 @@ macro_rules! loaded {
 
 loaded!(Single<true>, 0, 0, |own, at, wheel| own.engage(at, wheel));
 loaded!(IdealPair<true>, 0, 1, |own, at, wheel| own.engage(at, wheel));
-loaded!(RigidPair<false>, 2, 1, |_, at, wheel| at.jolt_under_load(wheel));
+loaded!(RigidPair, 2, 1, |_, at, wheel| at.jolt_under_load(wheel));
 
 /// [`account`], with the friction of the mesh in that of the rack.
 fn loaded_account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {

@@ -2,6 +2,8 @@
 //!
 //! On a rack that swings with ω the force is b ẍ/√(1 + (ω/ω_c)²), ω_c = c/b, and lags ẍ by arctan(ω/ω_c): an inertance that falls with
 //! frequency. The dashpot passes no impulse on, so that there is neither a jolt nor a flywheel that goes through an impact.
+//!
+//! Rigid clutches with drag while they are open have the same equations, and jolts.
 
 use super::clutch_state::{Coupling, DeviceState, Guard, ModeCoefficients};
 use super::dashpot;
@@ -11,12 +13,14 @@ use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::value::Value;
 
-/// Two flywheels with viscous slip that obey Eq. 10; `PERMANENT`: one that is always engaged.
-pub struct ViscousPair<const PERMANENT: bool>;
+/// Two flywheels behind dashpots that obey Eq. 10. `SLIPS`: viscously while they are engaged; else clutches are rigid and the dashpots are the drag
+/// of open ones. `PERMANENT`: one flywheel that is always engaged.
+pub struct DashpotPair<const SLIPS: bool, const PERMANENT: bool>;
 
-impl<S: Real, const PERMANENT: bool> Transmission<S, 2, 3> for ViscousPair<PERMANENT> {
+impl<S: Real, const SLIPS: bool, const PERMANENT: bool> Transmission<S, 2, 3> for DashpotPair<SLIPS, PERMANENT> {
     const COMMANDED: bool = !PERMANENT;
     const HOLDS: bool = true;
+    const THROUGH_IMPACTS: bool = !SLIPS;
     const PERMANENT: bool = PERMANENT;
 
     fn extend(&self, law: &mut ModeCoefficients<S>, parameters: &ScaledParameters<S>, device: &DeviceState<S>) {
@@ -34,6 +38,9 @@ impl<S: Real, const PERMANENT: bool> Transmission<S, 2, 3> for ViscousPair<PERMA
     }
 
     fn engage(&self, at: &mut EventContext<'_, S>, wheel: usize) {
+        if !SLIPS {
+            return at.jolt(wheel);
+        }
         let clutch = &mut at.device.wheels[wheel];
         (clutch.engaged_for, clutch.coupling) = (S::ZERO, Coupling::Viscous);
         at.settle_dashpots();
