@@ -102,7 +102,7 @@ impl SceneDevice {
 
 /// `[[device]]`.
 #[skip_serializing_none]
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeviceTable {
     /// Kind of device.
@@ -163,36 +163,16 @@ pub struct DeviceTable {
 impl DeviceTable {
     /// The ideal device of this kind, at the centre of mass; without a mass ratio yet.
     pub fn of(kind: Kind) -> DeviceTable {
-        DeviceTable {
-            kind,
-            name: None,
-            mass_ratio: None,
-            inertance_kg: None,
-            flywheels: None,
-            mount: None,
-            mount_height_m: None,
-            pulley_ratio: None,
-            kinematics: None,
-            engagement: None,
-            flywheel: None,
-            clutch: None,
-            rack: None,
-            actuation: None,
-            inertance_corner_hz: None,
-            weight: None,
-            support_amplification: None,
-            support_frequency_hz: None,
-            support_damping_ratio: None,
-            support_record: None,
-        }
+        DeviceTable { kind, ..DeviceTable::default() }
     }
 }
 
 /// Kinds of devices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// No device.
+    #[default]
     None,
     /// One inerter.
     Inerter,
