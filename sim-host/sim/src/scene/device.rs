@@ -294,28 +294,11 @@ pub(super) fn default_name(table: &DeviceTable, all: &[DeviceTable]) -> String {
 fn resolve_inerter(table: &DeviceTable, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<Device, SceneError> {
     let kind = DeviceKind::from(table.kind);
     if kind == DeviceKind::None {
-        let stray = [
-            ("mass_ratio", table.mass_ratio.is_some()),
-            ("inertance_kg", table.inertance_kg.is_some()),
-            ("flywheels", table.flywheels.is_some()),
-            ("mount", table.mount.is_some()),
-            ("mount_height_m", table.mount_height_m.is_some()),
-            ("pulley_ratio", table.pulley_ratio.is_some()),
-            ("kinematics", table.kinematics.is_some()),
-            ("engagement", table.engagement.is_some()),
-            ("flywheel", table.flywheel.is_some()),
-            ("clutch", table.clutch.is_some()),
-            ("rack", table.rack.is_some()),
-            ("actuation", table.actuation.is_some()),
-            ("inertance_corner_hz", table.inertance_corner_hz.is_some()),
-            ("weight", table.weight.is_some()),
-            ("support_amplification", table.support_amplification.is_some()),
-            ("support_frequency_hz", table.support_frequency_hz.is_some()),
-            ("support_damping_ratio", table.support_damping_ratio.is_some()),
-            ("support_record", table.support_record.is_some()),
-        ];
-        return match stray.iter().find(|(_, given)| *given) {
-            Some((name, _)) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),
+        // Those that are given, in their order.
+        let keys = serde_json::to_value(table).unwrap_or_default();
+        let stray = keys.as_object().and_then(|keys| keys.keys().find(|name| !["kind", "name"].contains(&name.as_str())));
+        return match stray {
+            Some(name) => Err(key(name).conflict("a device of kind \"none\" has no inerter")),
             None => Ok(Device::NONE),
         };
     }
