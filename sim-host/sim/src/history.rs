@@ -58,11 +58,15 @@ impl History {
     /// A state holds from its sample up to the next one, so an interval ends where the next state begins. Intervals of
     /// zero length are left out.
     pub fn engagements(&self) -> Vec<(f64, f64, u8)> {
+        let mut states = self.samples.chunk_by(|one, next| one.engaged == next.engaged).peekable();
         let mut intervals = Vec::new();
-        for run in self.runs() {
-            let (start, end, flywheel) = run;
-            if flywheel != 0 && end > start {
-                intervals.push((start, end, flywheel));
+        while let Some(state) = states.next() {
+            let next = states.peek().and_then(|next| next.first());
+            if let (Some(first), Some(end)) = (state.first(), next.or(state.last()))
+                && first.engaged != 0
+                && end.time_s > first.time_s
+            {
+                intervals.push((first.time_s, end.time_s, first.engaged));
             }
         }
         intervals
@@ -97,23 +101,6 @@ impl History {
 
     fn peak(&self, value: impl Fn(&Sample) -> f64) -> f64 {
         self.samples.iter().map(|sample| value(sample).abs()).fold(0.0, f64::max)
-    }
-
-    /// Maximal runs of one clutch state: start, end, state.
-    fn runs(&self) -> Vec<(f64, f64, u8)> {
-        let mut runs: Vec<(f64, f64, u8)> = Vec::new();
-        for sample in &self.samples {
-            match runs.last_mut() {
-                Some(run) => {
-                    run.1 = sample.time_s;
-                    if run.2 != sample.engaged {
-                        runs.push((sample.time_s, sample.time_s, sample.engaged));
-                    }
-                }
-                None => runs.push((sample.time_s, sample.time_s, sample.engaged)),
-            }
-        }
-        runs
     }
 }
 
