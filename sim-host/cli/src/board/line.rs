@@ -119,11 +119,6 @@ pub trait Line {
 
     /// Who says when a tick is.
     fn pace(&self) -> Pace;
-
-    /// What the device has said beside the link since the last time, one line each.
-    fn remarks(&mut self) -> Vec<String> {
-        Vec::new()
-    }
 }
 
 impl Line for Box<dyn Line> {
@@ -137,9 +132,5 @@ impl Line for Box<dyn Line> {
 
     fn pace(&self) -> Pace {
         (**self).pace()
-    }
-
-    fn remarks(&mut self) -> Vec<String> {
-        (**self).remarks()
     }
 }
