@@ -26,9 +26,8 @@ pub fn read<L: Line>(session: &mut Session<L>) -> Result<Settings, DeviceError> 
     let mut words = [0; COUNT];
     let mut first = 0;
     while first < COUNT {
-        let Reply::Words(block) = session.ask(&Request::Read { first: first as u16 })? else {
-            return Err(DeviceError::Confused("its settings"));
-        };
+        let wanted = |reply| if let Reply::Words(block) = reply { Some(block) } else { None };
+        let block = session.ask(&Request::Read { first: first as u16 }, wanted)?;
         let count = usize::from(block.count).min(WORD_BLOCK).min(COUNT - first);
         if count == 0 || usize::from(block.first) != first {
             return Err(DeviceError::Confused("its settings"));

@@ -49,21 +49,18 @@ pub struct Recording {
 /// # Errors
 /// The errors of [`Session::ask`].
 pub fn state<L: Line>(session: &mut Session<L>) -> Result<RecorderState, DeviceError> {
-    match session.ask(&Request::Recorder)? {
-        Reply::Recorder(state) => Ok(state),
-        _ => Err(DeviceError::Confused("its recorder")),
-    }
+    session.ask(&Request::Recorder, |reply| if let Reply::Recorder(state) = reply { Some(state) } else { None })
 }
 
 /// So many bytes from an offset on; nothing where the flash cannot be read, as after a cut of the supply.
 fn bytes<L: Line>(session: &mut Session<L>, offset: u32, length: usize) -> Result<Option<Vec<u8>>, DeviceError> {
     let mut bytes = Vec::new();
     while bytes.len() < length {
-        let reply = match session.ask(&Request::Recorded { offset: offset + bytes.len() as u32 }) {
+        let wanted = |reply| if let Reply::Recorded(recorded) = reply { Some(recorded) } else { None };
+        let recorded = match session.ask(&Request::Recorded { offset: offset + bytes.len() as u32 }, wanted) {
             Err(DeviceError::Refused(RefusalText(sprag_shared::link::Refusal::FlashFailed))) => return Ok(None),
-            reply => reply?,
+            recorded => recorded?,
         };
-        let Reply::Recorded(recorded) = reply else { return Err(DeviceError::Confused("its recordings")) };
         let count = usize::from(recorded.count).min(recorded.bytes.as_flattened().len());
         if count == 0 || recorded.offset != offset + bytes.len() as u32 {
             return Err(DeviceError::Confused("its recordings"));

@@ -29,20 +29,6 @@ fn first_tag(pace: Pace) -> u8 {
     }
 }
 
-/// Whether a reply is of the kind that a request has; a refusal is one to any.
-fn answers(reply: &Reply, request: &Request) -> bool {
-    match request {
-        _ if matches!(reply, Reply::Refused(_)) => true,
-        Request::Identify => matches!(reply, Reply::Identity(_)),
-        Request::State => matches!(reply, Reply::State(_)),
-        Request::Read { .. } => matches!(reply, Reply::Words(_)),
-        Request::Log { .. } => matches!(reply, Reply::Log(_)),
-        Request::Recorder => matches!(reply, Reply::Recorder(_)),
-        Request::Recorded { .. } => matches!(reply, Reply::Recorded(_)),
-        _ => matches!(reply, Reply::Done(_)),
-    }
-}
-
 /// A line to a device, and what has come over it.
 pub struct Session<L> {
     line: L,
@@ -111,11 +97,11 @@ impl<L: Line> Session<L> {
         Ok(replies)
     }
 
-    /// Makes a request until it is answered, however late: the answer to any attempt counts, and of another kind none.
+    /// Makes a request until it is answered, however late: the answer to any attempt counts, if it is refused or of the kind that `wanted` takes.
     ///
     /// # Errors
     /// [`DeviceError::Silent`], [`DeviceError::Refused`], or as the line.
-    pub fn ask(&mut self, request: &Request) -> Result<Reply, DeviceError> {
+    pub fn ask<R>(&mut self, request: &Request, wanted: impl Fn(Reply) -> Option<R>) -> Result<R, DeviceError> {
         let mut tags = Vec::new();
         for _ in 0..ATTEMPTS {
             tags.push(self.send(request)?);
@@ -123,12 +109,13 @@ impl<L: Line> Session<L> {
             while asked.elapsed() < PATIENCE && periods < PERIODS {
                 let replies = self.receive(PATIENCE)?;
                 periods += 1;
-                for (of, reply) in replies {
-                    match reply {
-                        // To an earlier request, and late.
-                        _ if !tags.contains(&of) || !answers(&reply, request) => {}
-                        Reply::Refused(refusal) => return Err(DeviceError::Refused(RefusalText(refusal))),
-                        reply => return Ok(reply),
+                // Others are to an earlier request, and late.
+                for (_, reply) in replies.into_iter().filter(|(of, _)| tags.contains(of)) {
+                    if let Reply::Refused(refusal) = reply {
+                        return Err(DeviceError::Refused(RefusalText(refusal)));
+                    }
+                    if let Some(answer) = wanted(reply) {
+                        return Ok(answer);
                     }
                 }
             }
@@ -141,10 +128,7 @@ impl<L: Line> Session<L> {
     /// # Errors
     /// The errors of [`Session::ask`].
     pub fn identify(&mut self) -> Result<Identity, DeviceError> {
-        match self.ask(&Request::Identify)? {
-            Reply::Identity(identity) => Ok(identity),
-            _ => Err(DeviceError::Confused("who it is")),
-        }
+        self.ask(&Request::Identify, |reply| if let Reply::Identity(identity) = reply { Some(identity) } else { None })
     }
 
     /// How it is.
@@ -152,10 +136,7 @@ impl<L: Line> Session<L> {
     /// # Errors
     /// The errors of [`Session::ask`].
     pub fn state(&mut self) -> Result<State, DeviceError> {
-        match self.ask(&Request::State)? {
-            Reply::State(state) => Ok(state),
-            _ => Err(DeviceError::Confused("how it is")),
-        }
+        self.ask(&Request::State, |reply| if let Reply::State(state) = reply { Some(state) } else { None })
     }
 
     /// Asks for something that only has to be done.
@@ -163,10 +144,7 @@ impl<L: Line> Session<L> {
     /// # Errors
     /// The errors of [`Session::ask`].
     pub fn order(&mut self, request: &Request) -> Result<Done, DeviceError> {
-        match self.ask(request)? {
-            Reply::Done(done) => Ok(done),
-            _ => Err(DeviceError::Confused("an order")),
-        }
+        self.ask(request, |reply| if let Reply::Done(done) = reply { Some(done) } else { None })
     }
 
     /// Has it test itself, from how it was `before`. An Armed one that refuses because it tests itself has heard, and its answer was lost.
@@ -189,9 +167,8 @@ impl<L: Line> Session<L> {
     pub fn log(&mut self) -> Result<(Vec<Entry>, u32), DeviceError> {
         let (mut entries, mut from) = (Vec::new(), 0);
         loop {
-            let Reply::Log(block) = self.ask(&Request::Log { from })? else {
-                return Err(DeviceError::Confused("its log"));
-            };
+            let block =
+                self.ask(&Request::Log { from }, |reply| if let Reply::Log(block) = reply { Some(block) } else { None })?;
             let count = usize::from(block.count).min(block.entries.len());
             entries.extend(block.entries[..count].iter().filter_map(|entry| entry.entry()));
             from = block.from + count as u32;
@@ -288,7 +265,8 @@ mod tests {
         let activity = RecorderActivity::Ready;
         let state = Reply::Recorder(RecorderState { pages: 1, next: 0, goes_round: false, activity, lost: 0, refused: 0 });
         let mut session = session(move |_, tags| vec![(tags[0], DONE), (tags[0], state)]);
-        assert_eq!(session.ask(&Request::Recorder).unwrap(), state);
+        let found = session.ask(&Request::Recorder, |reply| matches!(reply, Reply::Recorder(_)).then_some(reply));
+        assert_eq!(found.unwrap(), state);
     }
 
     /// Firmware drops frames of another version without a word.
