@@ -197,29 +197,18 @@ fn keys(ledgers: &[Vec<(f64, Shares)>], layers: &[Layer]) -> [Vec<LegendEntry>; 
 mod tests {
     use super::*;
     use crate::plot::assert_drawn;
+    use sprag_shared::observers::ledger::Entries;
     use sprag_shared::observers::outcome::Outcome;
     use sprag_sim::history::History;
     use sprag_sim::simulation::demand::Impulses;
     use sprag_sim::simulation::energy::EnergyReport;
 
-    const NOTHING: Shares = Shares {
-        initial: 0.0,
-        input: 0.0,
-        created: 0.0,
-        kinetic: 0.0,
-        potential: 0.0,
-        stored: 0.0,
-        impact: 0.0,
-        clutch: 0.0,
-        brake: 0.0,
-        bearing: 0.0,
-        rack: 0.0,
-        kinematics: 0.0,
-        residual: 0.0,
-    };
+    fn nothing() -> Shares {
+        Entries::<f64>::default().into()
+    }
 
     fn run(device: &str, outcome: Outcome, history: Vec<(f64, Shares)>) -> DeviceRun {
-        let entries = history.last().map_or(NOTHING, |(_, shares)| *shares);
+        let entries = history.last().map_or(nothing(), |(_, shares)| *shares);
         DeviceRun {
             device: device.to_owned(),
             outcome,
@@ -248,7 +237,7 @@ mod tests {
             let potential = if grows && part > 0.9 { -50.0 * part } else { total * wave };
             let kinetic = total - potential;
             let impact = if grows { 0.0 } else { 0.8 * part };
-            (9.0 * part, Shares { input: total + impact, kinetic, potential, impact, ..NOTHING })
+            (9.0 * part, Shares { input: total + impact, kinetic, potential, impact, ..nothing() })
         };
         (0..count).map(sample).collect()
     }
@@ -282,7 +271,7 @@ mod tests {
         let (taken, given) = (with(0.25), with(-0.25));
         assert!(taken.contains("taken by the paper's kinematics") && taken.contains("kinematics took 0.250"));
         assert!(given.contains("given by the paper's kinematics") && given.contains("kinematics gave 0.250"));
-        let shares = Shares { input: 1.0, kinematics: -0.25, ..NOTHING };
+        let shares = Shares { input: 1.0, kinematics: -0.25, ..nothing() };
         assert_eq!(supply(&shares), 1.25);
     }
 
