@@ -187,47 +187,37 @@ pub struct StripesTable {
 
 /// `[demand]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct DemandTable {
     /// Intensity measure of the power laws.
-    #[serde(default = "uniform_duration")]
     pub measure: Measure,
     /// Structures whose demands are fitted, by name; all without the key.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = EXAMPLE_STRUCTURES)]
     pub structures: Vec<String>,
 }
 
-fn uniform_duration() -> Measure {
-    Measure::UniformDuration
-}
-
 impl Default for DemandTable {
     fn default() -> Self {
-        DemandTable { measure: uniform_duration(), structures: Vec::new() }
+        DemandTable { measure: Measure::UniformDuration, structures: Vec::new() }
     }
 }
 
 /// `[fragility]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct FragilityTable {
     /// Intensity measure of the fragilities.
-    #[serde(default = "pgv")]
     pub measure: Measure,
     /// Structures whose fragilities are fitted, by name; all without the key.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(example = EXAMPLE_STRUCTURES)]
     pub structures: Vec<String>,
 }
 
-fn pgv() -> Measure {
-    Measure::Pgv
-}
-
 impl Default for FragilityTable {
     fn default() -> Self {
-        FragilityTable { measure: pgv(), structures: Vec::new() }
+        FragilityTable { measure: Measure::Pgv, structures: Vec::new() }
     }
 }
 
