@@ -3,10 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{said, scene, sprag, summary, well};
-
-const HEADER: &str =
-    "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
+use super::{CASE_TITLES, said, scene, sprag, summary, well};
 
 /// Peak and error of the first run that stands.
 fn peak_and_error(command: &str, scene: &str, level: &str) -> (f64, f64) {
@@ -50,7 +47,7 @@ fn batch_gives_errors_beside_its_results_and_without_them_the_columns_of_old() {
     let folder = tempfile::tempdir().unwrap();
     let [cases, plain, closer, again] =
         ["cases.csv", "plain.csv", "closer.csv", "again.csv"].map(|name| folder.path().join(name));
-    let mut text = HEADER.to_owned();
+    let mut text = CASE_TITLES.to_owned();
     for index in 0..200 {
         text += &format!(
             "{index},full,15,clutched-pair,0.5,0.85,sine,{},{},20\n",
@@ -97,7 +94,7 @@ fn batch_gives_errors_beside_its_results_and_without_them_the_columns_of_old() {
 fn a_time_budget_promises_no_error_where_every_block_overturns() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (folder.path().join("cases.csv"), folder.path().join("out.csv"));
-    fs::write(&cases, format!("{HEADER}one,full,15,none,0,0.85,sine,1,20,20\n")).unwrap();
+    fs::write(&cases, format!("{CASE_TITLES}one,full,15,none,0,0.85,sine,1,20,20\n")).unwrap();
     let output = sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--time-budget", "3600"]);
     let line = said(&output);
     assert!(output.status.success() && fs::read_to_string(&out).unwrap().contains("one,overturned"), "{line}");
@@ -110,7 +107,7 @@ fn too_little_time_is_said_with_what_it_affords() {
     let folder = tempfile::tempdir().unwrap();
     let (cases, out) = (folder.path().join("cases.csv"), folder.path().join("out.csv"));
     let row = ",full,15,clutched-pair,0.5,0.85,sine,2.5,3,20\n";
-    fs::write(&cases, (0..60_000).fold(HEADER.to_owned(), |text, index| text + &index.to_string() + row)).unwrap();
+    fs::write(&cases, (0..60_000).fold(CASE_TITLES.to_owned(), |text, index| text + &index.to_string() + row)).unwrap();
     let output = sprag(&[
         "batch",
         cases.to_str().unwrap(),

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::{SCENES, refused, said, scene, sprag};
+use super::{CASE_TITLES, SCENES, refused, said, scene, sprag};
 
 #[test]
 fn bad_scenes_cost_one_line() {
@@ -91,7 +91,6 @@ fn bad_cases_cost_one_line_that_names_the_place() {
     fs::create_dir(&out).unwrap();
     let results = out.join("results.csv");
     let cases = folder.path().join("cases.csv");
-    let header = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
     let good = "0,full,15,none,0,0.85,sine,2,2,60\n";
     refused(&["batch", SCENES, "--out", results.to_str().unwrap()], &out, &[SCENES, "is a folder; name a file of cases"]);
     let try_text = |text: &str, words: &[&str]| {
@@ -99,19 +98,19 @@ fn bad_cases_cost_one_line_that_names_the_place() {
         refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, words);
     };
     try_text("", &["column `id` is missing"]);
-    try_text(header, &["no cases"]);
-    try_text(&format!("{header}{good}1,full,95,none,0,0.85,sine,2,2,60\n"), &["line 3", "slenderness_deg", "95"]);
-    try_text(&format!("{header}1,round,15,none,0,0.85,sine,2,2,60\n"), &["geometry", "round", "full or slender"]);
-    try_text(&format!("{header}1,full,15,none,0,1.85,sine,2,2,60\n"), &["restitution", "from 0 to 1"]);
-    try_text(&format!("{header}1,full,15,none,0,0.85,sine,NaN,2,60\n"), &["frequency_ratio", "NaN"]);
-    try_text(&format!("{header}1,full,15,none\n"), &["line 2", "4 fields"]);
-    try_text(&format!("colour,{header}"), &["unknown column `colour`"]);
+    try_text(CASE_TITLES, &["no cases"]);
+    try_text(&format!("{CASE_TITLES}{good}1,full,95,none,0,0.85,sine,2,2,60\n"), &["line 3", "slenderness_deg", "95"]);
+    try_text(&format!("{CASE_TITLES}1,round,15,none,0,0.85,sine,2,2,60\n"), &["geometry", "round", "full or slender"]);
+    try_text(&format!("{CASE_TITLES}1,full,15,none,0,1.85,sine,2,2,60\n"), &["restitution", "from 0 to 1"]);
+    try_text(&format!("{CASE_TITLES}1,full,15,none,0,0.85,sine,NaN,2,60\n"), &["frequency_ratio", "NaN"]);
+    try_text(&format!("{CASE_TITLES}1,full,15,none\n"), &["line 2", "4 fields"]);
+    try_text(&format!("colour,{CASE_TITLES}"), &["unknown column `colour`"]);
     fs::File::create(&cases).unwrap().set_len(2 << 30).unwrap();
     refused(&["batch", cases.to_str().unwrap(), "--out", results.to_str().unwrap()], &out, &["line 1", "more than 1 MiB"]);
     // A quote that nothing closes.
-    let open = format!("{header}{good}\"{}", good.repeat(40_000));
+    let open = format!("{CASE_TITLES}{good}\"{}", good.repeat(40_000));
     try_text(&open, &["line 3", "more than 1 MiB"]);
-    try_text(&format!("id,{header}"), &["column `id` is there twice"]);
+    try_text(&format!("id,{CASE_TITLES}"), &["column `id` is there twice"]);
 }
 
 #[test]

@@ -8,20 +8,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use sprag_report::columns::{Column, CsvWriter, parquet_of_csv, read_parquet};
 
-use super::{refused, said, sprag, well};
-
-const TITLES: [&str; 10] = [
-    "id",
-    "geometry",
-    "slenderness_deg",
-    "device",
-    "mass_ratio",
-    "restitution",
-    "pulse",
-    "frequency_ratio",
-    "amplitude_ratio",
-    "free_time",
-];
+use super::{CASE_TITLES, refused, said, sprag, well};
 
 /// More cases than one thread has in memory at one time, and fewer than three have.
 const MANY: usize = 10_000;
@@ -33,7 +20,7 @@ fn row(index: usize) -> String {
 }
 
 fn table(rows: std::ops::Range<usize>) -> String {
-    rows.fold(TITLES.join(",") + "\n", |text, index| text + &row(index))
+    rows.fold(CASE_TITLES.to_owned(), |text, index| text + &row(index))
 }
 
 fn text(path: &Path) -> &str {
@@ -59,8 +46,9 @@ fn piped(arguments: &[&str], folder: &Path) -> Child {
     command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
-fn columns(with: [Column; 10]) -> Vec<Column> {
-    with.to_vec()
+/// The columns of cases.
+fn columns(column: impl Fn(&'static str) -> Column) -> Vec<Column> {
+    CASE_TITLES.trim_end().split(',').map(column).collect()
 }
 
 /// `csv` as Parquet.
@@ -70,12 +58,11 @@ fn parquet(csv: &str, columns: &[Column], path: &Path) {
 
 /// Numbers as numbers, and the id as a whole one.
 fn typed() -> Vec<Column> {
-    let kind = |title| match title {
+    columns(|title| match title {
         "id" => Column::count(title),
         "geometry" | "device" | "pulse" => Column::text(title),
         title => Column::number(title).or_nothing(),
-    };
-    columns(TITLES.map(kind))
+    })
 }
 
 #[test]
@@ -105,7 +92,7 @@ fn parquet_is_csv_with_types() {
     fs::write(&plain, &csv).unwrap();
     let expected = results(&plain, &[]);
     parquet(&csv, &typed(), &with_types);
-    parquet(&csv, &columns(TITLES.map(Column::text)), &as_texts);
+    parquet(&csv, &columns(Column::text), &as_texts);
     let turned = csv.lines().fold(String::new(), |mut text, line| {
         let fields: Vec<&str> = line.split(',').rev().collect();
         writeln!(text, "{}", fields.join(",")).unwrap();

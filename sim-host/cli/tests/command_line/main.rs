@@ -24,6 +24,10 @@ use std::process::{Command, Output};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
 
+/// The first line of a case file.
+const CASE_TITLES: &str =
+    "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
+
 fn sprag(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
 }

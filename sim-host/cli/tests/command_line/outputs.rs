@@ -6,10 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use super::long_runs::{SLOW, begun, files, folders, grown, map};
 use super::studies::folder_of_pulses;
-use super::{SHORT_SCENE, errors, pulse, refused, said, scene, sprag, well};
-
-const CASES: &str = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n\
-    one,full,15,none,0,0.85,sine,2,2,60\n";
+use super::{CASE_TITLES, SHORT_SCENE, errors, pulse, refused, said, scene, sprag, well};
 
 /// Expects exit code 2 and one line with `words` beside warnings.
 fn declined(output: &Output, words: &[&str]) {
@@ -23,9 +20,13 @@ fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
 
+fn one_case() -> String {
+    format!("{CASE_TITLES}one,full,15,none,0,0.85,sine,2,2,60\n")
+}
+
 fn cases(folder: &Path) -> std::path::PathBuf {
     let cases = folder.join("cases.csv");
-    fs::write(&cases, CASES).unwrap();
+    fs::write(&cases, one_case()).unwrap();
     cases
 }
 
@@ -53,7 +54,7 @@ fn an_input_is_never_an_output() {
         fs::hard_link(&cases, &hard).unwrap();
         declined(&batch(&hard), &["hard.csv", "which the command reads"]);
     }
-    assert_eq!(fs::read_to_string(&cases).unwrap(), CASES);
+    assert_eq!(fs::read_to_string(&cases).unwrap(), one_case());
     // A record that is called like a result of the command.
     let scene = short_scene(folder.path());
     let record = folder.path().join("history.csv");
@@ -146,7 +147,7 @@ fn single_results_are_replaced_by_the_same_command_or_when_asked() {
     well(batch(&[]));
     // With other columns, of other cases, and what is no result.
     declined(&batch(&["--accuracy", "fast"]), &["results.csv", "--overwrite"]);
-    fs::write(&cases, CASES.replace("one,full", "two,full")).unwrap();
+    fs::write(&cases, one_case().replace("one,full", "two,full")).unwrap();
     declined(&batch(&[]), &["results.csv", "--overwrite"]);
     assert!(fs::read_to_string(&results).unwrap().contains("\none,"));
     well(batch(&["--overwrite"]));

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Output};
 
 use super::studies::on_any_threads;
-use super::{refused, said, scene, sprag, summary, well};
+use super::{CASE_TITLES, refused, said, scene, sprag, summary, well};
 
 #[test]
 fn simulate_writes_its_three_files_and_a_summary() {
@@ -94,8 +94,7 @@ fn the_same_scene_gives_the_same_bytes() {
 fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
     let folder = tempfile::tempdir().unwrap();
     let cases = folder.path().join("cases.csv");
-    let mut text =
-        "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n".to_owned();
+    let mut text = CASE_TITLES.to_owned();
     for index in 0..1000 {
         let device = ["none", "inerter", "clutched-pair"][index % 3];
         let geometry = ["full", "slender"][index % 2];

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-use super::{SHORT_SCENE, pulse, said, scene};
+use super::{CASE_TITLES, SHORT_SCENE, pulse, said, scene};
 
 /// For how long something that a test waits for may take on a busy machine.
 const GUARD: Duration = Duration::from_secs(120);
@@ -132,9 +132,8 @@ fn records(folder: &Path, count: usize) {
 }
 
 fn cases(folder: &Path, count: usize) {
-    let header = "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
     let row = ",full,15,clutched-pair,0.5,0.85,sine,2.5,3,20\n";
-    let text = (0..count).fold(header.to_owned(), |text, index| text + &index.to_string() + row);
+    let text = (0..count).fold(CASE_TITLES.to_owned(), |text, index| text + &index.to_string() + row);
     std::fs::write(folder.join("cases.csv"), text).unwrap();
 }
 
