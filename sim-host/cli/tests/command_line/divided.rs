@@ -35,27 +35,9 @@ fn parts_of_a_map_in_any_order_are_the_map() {
     let (root, whole, collected) = folders();
     let here = root.path();
     let scene = scene("figure08");
-    well(sprag(here, &["map", &scene, "--set", CELLS[0], "--set", CELLS[1], "--formats", "csv,svg", "--out", "one"]));
-    well(sprag(
-        here,
-        &[
-            "plan",
-            "parts",
-            "--parts",
-            "5",
-            "--",
-            "map",
-            &scene,
-            "--set",
-            CELLS[0],
-            "--set",
-            CELLS[1],
-            "--formats",
-            "csv,svg",
-            "--out",
-            "other",
-        ],
-    ));
+    let map = ["map", &scene, "--set", CELLS[0], "--set", CELLS[1], "--formats", "csv,svg", "--out"];
+    well(sprag(here, &[&map[..], &["one"]].concat()));
+    well(sprag(here, &[&["plan", "parts", "--parts", "5", "--"], &map[..], &["other"]].concat()));
     refused(&sprag(here, &["collect", "parts"]), &["5 of 5 parts are missing", "part-00001.parquet"]);
     // What processes have left that were killed goes with their part, and with the rest at the end.
     let left = ["00004", "00003", "lost"].map(|name| here.join("parts").join(format!(".unfinished-{name}-x")));
