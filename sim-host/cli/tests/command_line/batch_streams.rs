@@ -8,7 +8,7 @@ use std::process::{Child, Command, Output, Stdio};
 
 use sprag_report::columns::{Column, CsvWriter, parquet_of_csv, read_parquet};
 
-use super::{CASE_TITLES, refused, said, sprag, well};
+use super::{CASE_TITLES, command, refused, said, sprag, well};
 
 /// More cases than one thread has in memory at one time, and fewer than three have.
 const MANY: usize = 10_000;
@@ -41,9 +41,8 @@ fn results(cases: &Path, more: &[&str]) -> String {
 
 /// The command with both ends of its pipes.
 fn piped(arguments: &[&str], folder: &Path) -> Child {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(arguments).current_dir(folder);
-    command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+    let mut command = command(arguments);
+    command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
 }
 
 /// The columns of cases.
@@ -124,9 +123,8 @@ fn standard_input_and_output_are_files_like_any() {
     fs::write(&cases, table(0..MANY)).unwrap();
     let expected = results(&cases, &[]);
     let through = |out: &str| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-        command.args(["batch", "-", "--out", out]).current_dir(&folder).stdin(File::open(&cases).unwrap());
-        command.output().unwrap()
+        let mut command = command(&["batch", "-", "--out", out]);
+        command.current_dir(&folder).stdin(File::open(&cases).unwrap()).output().unwrap()
     };
     let whole = through("-");
     assert!(whole.status.success() && whole.stdout == expected.as_bytes(), "{}", said(&whole));

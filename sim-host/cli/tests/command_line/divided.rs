@@ -16,8 +16,8 @@ fn sprag(folder: &Path, words: &[&str]) -> Output {
 }
 
 fn command(folder: &Path, words: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(words).current_dir(folder);
+    let mut command = super::command(words);
+    command.current_dir(folder);
     command
 }
 

@@ -5,15 +5,13 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::studies::folder_of_pulses;
-use super::{said, scene, well};
+use super::{command, said, scene, well};
 
 /// Cells that are simulated one by one, so that a run takes a while.
 pub const SLOW: [&str; 6] = ["--set", "map.x.cells=24", "--set", "map.y.cells=20", "--set", "ground.0.motion=\"half-sine\""];
 
 pub fn map(out: &Path, more: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(["map", &scene("figure08"), "--out", out.to_str().unwrap()]).args(more);
-    command
+    command(&[&["map", &scene("figure08"), "--out", out.to_str().unwrap()], more].concat())
 }
 
 /// The files without times.
@@ -109,9 +107,8 @@ fn a_killed_optimisation_resumes() {
     let (root, whole, killed) = folders();
     let records = folder_of_pulses(root.path());
     let run = |out: &Path, more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-        command.args(["optimise", &scene("optimise"), "--records", &records, "--out", out.to_str().unwrap()]).args(more);
-        command
+        let optimise = ["optimise", &scene("optimise"), "--records", &records, "--out", out.to_str().unwrap()];
+        command(&[&optimise, more].concat())
     };
     well(run(&whole, &[]).output().unwrap());
     let mut process = run(&killed, &["--threads", "1"]).stdout(Stdio::null()).spawn().unwrap();

@@ -28,8 +28,14 @@ const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
 const CASE_TITLES: &str =
     "id,geometry,slenderness_deg,device,mass_ratio,restitution,pulse,frequency_ratio,amplitude_ratio,free_time\n";
 
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
+    command.args(arguments);
+    command
+}
+
 fn sprag(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_sprag")).args(arguments).output().expect("sprag starts")
+    command(arguments).output().expect("sprag starts")
 }
 
 /// The output of a run that succeeds.

@@ -6,7 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use super::long_runs::{SLOW, begun, files, folders, grown, map};
 use super::studies::folder_of_pulses;
-use super::{CASE_TITLES, SHORT_SCENE, errors, pulse, refused, said, scene, sprag, well};
+use super::{CASE_TITLES, SHORT_SCENE, command, errors, pulse, refused, said, scene, sprag, well};
 
 /// Expects exit code 2 and one line with `words` beside warnings.
 fn declined(output: &Output, words: &[&str]) {
@@ -130,8 +130,7 @@ fn standard_output_takes_a_result() {
     assert!(quiet.stdout == plain && said(&quiet).is_empty(), "{}", said(&quiet));
     let redirected = folder.path().join("redirected.csv");
     let file = fs::File::create(&redirected).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    well(command.args(["synthesize", "--out", "/dev/stdout"]).stdout(file).output().unwrap());
+    well(command(&["synthesize", "--out", "/dev/stdout"]).stdout(file).output().unwrap());
     assert!(fs::read(&redirected).unwrap() == plain);
     assert!(Path::new("/dev/stdout").symlink_metadata().unwrap().is_symlink());
 }
@@ -203,10 +202,7 @@ fn folders_are_replaced_by_the_same_command_of_the_same_scene_or_when_asked() {
     // Scenes of one name in two folders share the default folder.
     let other = short_scene(&folder.path().join("other"));
     fs::write(&other, SHORT_SCENE.replace("size_m = 2", "size_m = 3")).unwrap();
-    let here = |scene: &Path| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-        command.current_dir(folder.path()).args(["simulate", text(scene)]).output().unwrap()
-    };
+    let here = |scene: &Path| command(&["simulate", text(scene)]).current_dir(folder.path()).output().unwrap();
     well(here(&scene));
     declined(&here(&other), &["out/scene", "scene.block.size_m differs"]);
 }
@@ -329,10 +325,8 @@ fn a_restart_does_not_touch_the_rows_of_a_running_process() {
     let records = folder_of_pulses(root.path());
     let tried = root.path().join("tried");
     let run = |more: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-        command
-            .args(["optimise", &scene("optimise"), "--formats", "csv", "--records", &records, "--out", text(&tried)])
-            .args(more);
+        let optimise = ["optimise", &scene("optimise"), "--formats", "csv", "--records", &records, "--out", text(&tried)];
+        let mut command = command(&[&optimise, more].concat());
         command.stdout(Stdio::null()).stderr(Stdio::piped());
         command
     };

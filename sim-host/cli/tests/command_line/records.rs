@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use super::{errors, pulse, refused, said, scene, sprag};
+use super::{command, errors, pulse, refused, said, scene, sprag};
 
 /// Half a sine as [`pulse`], whose column says g and whose values are cm/s².
 fn gal_as_g() -> String {
@@ -175,9 +175,8 @@ fn a_summary_names_records_as_the_user_did_wherever_it_was_made() {
     folder.file("one.csv", &pulse(0.2));
     folder.file("up.csv", &pulse(0.05));
     let run = |line: &[&str]| {
-        let program = env!("CARGO_BIN_EXE_sprag");
-        let place = ["--overwrite", "--out", "out"];
-        let output = Command::new(program).current_dir(folder.0.path()).args(line).args(place).output().unwrap();
+        let line = [line, &["--overwrite", "--out", "out"]].concat();
+        let output = command(&line).current_dir(folder.0.path()).output().unwrap();
         assert!(output.status.success(), "{line:?}: {}", said(&output));
         fs::read_to_string(folder.path("out/summary.json")).unwrap()
     };
@@ -284,12 +283,7 @@ fn a_pipe_is_refused_and_not_waited_for() {
     let pipe = folder.name("pipe.csv");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
     for line in [&["record", &pipe][..], &["simulate", &pair, "--record", &pipe], &["map", &map, "--record", &pipe]] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_sprag"))
-            .args(line)
-            .current_dir(folder.0.path())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = command(line).current_dir(folder.0.path()).stderr(Stdio::piped()).spawn().unwrap();
         let begun = Instant::now();
         while child.try_wait().unwrap().is_none() && begun.elapsed() < Duration::from_secs(60) {
             std::thread::sleep(Duration::from_millis(20));

@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Output};
 
 use super::studies::on_any_threads;
-use super::{CASE_TITLES, refused, said, scene, sprag, summary, well};
+use super::{CASE_TITLES, command, refused, said, scene, sprag, summary, well};
 
 #[test]
 fn simulate_writes_its_three_files_and_a_summary() {
@@ -121,19 +121,10 @@ fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
 fn ctrl_c_ends_a_long_run_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_sprag"))
-        .args(["simulate", &scene("figure05"), "--out", out.to_str().unwrap()])
-        .args([
-            "--set",
-            "accuracy.method=runge-kutta-4",
-            "--set",
-            "accuracy.step_ratio=1e-7",
-            "--set",
-            "run.free_time_ratio=10000",
-        ])
-        .stderr(std::process::Stdio::null())
-        .spawn()
-        .unwrap();
+    let figure = scene("figure05");
+    let run = ["simulate", &figure, "--out", out.to_str().unwrap(), "--set", "accuracy.method=runge-kutta-4"];
+    let long = ["--set", "accuracy.step_ratio=1e-7", "--set", "run.free_time_ratio=10000"];
+    let mut child = command(&[&run[..], &long].concat()).stderr(std::process::Stdio::null()).spawn().unwrap();
     // The folder is made once the scene has been read and just before the work starts.
     while !out.is_dir() {
         std::thread::sleep(std::time::Duration::from_millis(5));

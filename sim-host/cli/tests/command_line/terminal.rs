@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 
-use super::{CASE_TITLES, SHORT_SCENE, pulse, said, scene};
+use super::{CASE_TITLES, SHORT_SCENE, command, pulse, said, scene};
 
 /// For how long something that a test waits for may take on a busy machine.
 const GUARD: Duration = Duration::from_secs(120);
@@ -379,9 +379,8 @@ fn what_is_kept_is_said_even_by_work_that_does_not_look() {
     let folder = tempfile::tempdir().unwrap();
     let pipe = folder.path().join("pipe.csv");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(["batch", pipe.to_str().unwrap(), "--out", "results.csv"]).current_dir(&folder);
-    let process = command.stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    let mut command = command(&["batch", pipe.to_str().unwrap(), "--out", "results.csv"]);
+    let process = command.current_dir(&folder).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     // There is no other end before it reads, and nothing to be read.
     let _other_end = std::fs::OpenOptions::new().write(true).open(&pipe).unwrap();
     terminate(process.id());

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use super::{said, scene, sprag};
+use super::{command, said, scene, sprag};
 
 /// One line that begins with the name of the program and has all `words`, and exit code 2.
 fn one_line(output: &Output, words: &[&str]) -> String {
@@ -132,8 +132,8 @@ const COMMANDS: [&[&str]; 23] = [
 fn help_has_an_example_and_is_wrapped_once() {
     for command in COMMANDS {
         for columns in [70, 80, 100] {
-            let mut help = Command::new(env!("CARGO_BIN_EXE_sprag"));
-            let output = help.args(command).arg("--help").env("COLUMNS", columns.to_string()).output().unwrap();
+            let help = [command, &["--help"]].concat();
+            let output = super::command(&help).env("COLUMNS", columns.to_string()).output().unwrap();
             let text = String::from_utf8(output.stdout).unwrap();
             assert!(output.status.success() && text.contains(&format!("  sprag {}", command.join(" "))), "{command:?}: {text}");
             let (_, after) = text.split_once("Example").unwrap();
@@ -163,8 +163,7 @@ fn help_with_a_command_is_the_help_of_that_command() {
 
 fn into_full(arguments: &[&str], folder: &Path) -> Output {
     let full = File::options().write(true).open("/dev/full").unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
-    command.args(arguments).current_dir(folder).stdout(full).stderr(Stdio::piped()).output().unwrap()
+    command(arguments).current_dir(folder).stdout(full).stderr(Stdio::piped()).output().unwrap()
 }
 
 /// The commands that print results at once.
