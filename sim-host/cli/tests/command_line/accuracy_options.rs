@@ -173,9 +173,11 @@ fn the_study_writes_its_tables_and_pictures() {
 fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_not() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let controller = scene("controller");
-    let specimens = ["loop", &controller, "--monte-carlo", "1000000000", "--time-budget", "1", "--out", out.to_str().unwrap()];
-    let refused = sprag(&specimens);
+    let (controller, place) = (scene("controller"), ["--out", out.to_str().unwrap()]);
+    let specimens = |count: &str, budget: &[&str]| {
+        sprag(&[&["loop", &controller, "--monte-carlo", count, "--time-budget"], budget, &place].concat())
+    };
+    let refused = specimens("1000000000", &["1"]);
     let line = said(&refused);
     assert_eq!(refused.status.code(), Some(2), "{line}");
     assert!(
@@ -183,19 +185,7 @@ fn a_time_budget_counts_all_specimens_and_is_not_said_to_suffice_where_it_does_n
         "{line}"
     );
     // The same with time enough says what it is going to do, and does it.
-    let few = [
-        "loop",
-        &controller,
-        "--monte-carlo",
-        "2",
-        "--time-budget",
-        "3600",
-        "--accuracy",
-        "fast",
-        "--out",
-        out.to_str().unwrap(),
-    ];
-    let done = sprag(&few);
+    let done = specimens("2", &["3600", "--accuracy", "fast"]);
     assert!(done.status.success() && said(&done).contains("--accuracy fast affords"), "{}", said(&done));
     let scene = scene("near_fault");
     let other = folder.path().join("other");
