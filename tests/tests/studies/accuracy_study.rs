@@ -8,7 +8,7 @@ use sprag_sim::scene::Scene;
 use sprag_sim::scene::accuracy::EventTreatment;
 use sprag_studies::accuracy_study::row::{Row, order};
 use sprag_studies::accuracy_study::study::{Extent, study};
-use sprag_studies::accuracy_study::variant::{Method, Number, Setting};
+use sprag_studies::accuracy_study::variant::{Family, Method, Number, Setting};
 
 const PAIR: usize = 2;
 
@@ -20,9 +20,7 @@ fn rows(scene: &str, extent: Extent) -> Vec<Row> {
 }
 
 fn family(rows: &[Row], device: usize, method: Method, events: EventTreatment, number: Number) -> Vec<&Row> {
-    let is = |row: &&Row| {
-        row.device == device && row.variant.method == method && row.variant.events == events && row.variant.number == number
-    };
+    let is = |row: &&Row| row.device == device && row.variant.family == Family { method, events, number };
     rows.iter().filter(is).collect()
 }
 

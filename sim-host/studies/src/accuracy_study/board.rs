@@ -6,7 +6,7 @@ use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::device::DeviceKind;
 use sprag_sim::scene::accuracy::EventTreatment;
 
-use super::variant::{Method, Number, Variant};
+use super::variant::{Family, Method, Number};
 
 /// Cycles that an instruction takes on a Cortex-M4F, as an estimate: most take one, loads and taken branches two or three, divisions and
 /// square roots fourteen, and flash at 168 MHz has five wait states behind a cache.
@@ -40,59 +40,53 @@ impl Board {
         Board(lines.lines().filter_map(kernel).collect())
     }
 
-    /// The cost of a step of `variant`, where the image has it or one that costs the same: a step with a single inerter does what one with a
+    /// The cost of a step of `family`, where the image has it or one that costs the same: a step with a single inerter does what one with a
     /// pair does, and a slender block needs no sine.
-    pub fn cost(&self, variant: &Variant, geometry: Geometry, device: DeviceKind) -> Option<BoardCost> {
+    pub fn cost(&self, family: Family, geometry: Geometry, device: DeviceKind) -> Option<BoardCost> {
         let pair = if device == DeviceKind::Inerter { DeviceKind::ClutchedPair } else { device };
-        let own = match variant.number {
+        let own = match family.number {
             number if geometry == Geometry::Full => number,
             Number::F64Libm | Number::F64Own => Number::F64Libm,
             _ => Number::F32Own,
         };
-        let names = [(variant.number, device), (variant.number, pair), (own, device), (own, pair)];
+        let names = [(family.number, device), (family.number, pair), (own, device), (own, pair)];
         names
             .iter()
-            .find_map(|&(number, device)| self.0.get(&kernel(&Variant { number, ..*variant }, geometry, device)))
+            .find_map(|&(number, device)| self.0.get(&kernel(Family { number, ..family }, geometry, device)))
             .map(|&instructions| BoardCost { instructions })
     }
 }
 
-/// The name of the kernel that takes a step of `variant`.
-fn kernel(variant: &Variant, geometry: Geometry, device: DeviceKind) -> String {
-    let method = match variant.method {
+/// The name of the kernel that takes a step of `family`.
+fn kernel(family: Family, geometry: Geometry, device: DeviceKind) -> String {
+    let method = match family.method {
         Method::SemiImplicitEuler => "euler",
         Method::RungeKutta4 => "rk4",
         Method::Taylor => "taylor12",
         Method::ClosedForm => "closed-form",
     };
-    let events = if variant.events == EventTreatment::StepEnd { "step-end" } else { "located" };
+    let events = if family.events == EventTreatment::StepEnd { "step-end" } else { "located" };
     let geometry = if geometry == Geometry::Full { "full" } else { "slender" };
     let device = match device {
         DeviceKind::None => "none",
         DeviceKind::Inerter => "inerter",
         DeviceKind::ClutchedPair => "clutched-pair",
     };
-    format!("step-{method}-{events}-{}-{}-{geometry}-{device}", variant.number.precision(), variant.number.math())
+    format!("step-{method}-{events}-{}-{}-{geometry}-{device}", family.number.precision(), family.number.math())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy_study::variant::Setting;
 
     #[test]
     fn a_kernel_is_found_by_what_it_does() {
         let board =
             Board::read("noise\nkernel nothing 3\nkernel step-rk4-step-end-f32-micromath-full-clutched-pair 150 (2 steps)\n");
-        let variant = Variant {
-            method: Method::RungeKutta4,
-            events: EventTreatment::StepEnd,
-            number: Number::F32Micromath,
-            setting: Setting::Step(0.1),
-        };
-        let cost = board.cost(&variant, Geometry::Full, DeviceKind::ClutchedPair);
+        let family = Family { method: Method::RungeKutta4, events: EventTreatment::StepEnd, number: Number::F32Micromath };
+        let cost = board.cost(family, Geometry::Full, DeviceKind::ClutchedPair);
         assert_eq!(cost, Some(BoardCost { instructions: 150 }));
         assert_eq!(cost.unwrap().cycles(), 225.0);
-        assert_eq!(board.cost(&variant, Geometry::Slender, DeviceKind::ClutchedPair), None);
+        assert_eq!(board.cost(family, Geometry::Slender, DeviceKind::ClutchedPair), None);
     }
 }

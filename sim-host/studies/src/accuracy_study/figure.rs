@@ -31,7 +31,7 @@ struct Plan {
 impl Plan {
     /// The rows that have a point, with it.
     fn points<'a>(&self, rows: &'a [Row]) -> impl Iterator<Item = (&'a Row, (f64, f64))> {
-        let wanted = rows.iter().filter(|row| (self.wanted)(&row.variant.family()));
+        let wanted = rows.iter().filter(|row| (self.wanted)(&row.variant.family));
         wanted.filter_map(|row| Some((row, (self.point)(row)?)))
     }
 
@@ -54,7 +54,7 @@ impl Plan {
         let panel = |(index, name): (usize, &String)| {
             let mut lines: Vec<(Family, Line)> = Vec::new();
             for (row, point) in self.drawn(rows).filter(|(row, _)| row.device == index) {
-                let family = row.variant.family();
+                let family = row.variant.family;
                 let known = lines.iter().position(|(known, _)| *known == family).unwrap_or_else(|| {
                     let (name, label) = (family.to_string(), family.to_string());
                     lines.push((
@@ -76,7 +76,7 @@ impl Plan {
 
     /// What the looks of the lines stand for.
     fn keys(&self, rows: &[Row]) -> Vec<Vec<ChartKey>> {
-        let families: Vec<Family> = self.drawn(rows).map(|(row, _)| row.variant.family()).collect();
+        let families: Vec<Family> = self.drawn(rows).map(|(row, _)| row.variant.family).collect();
         let any = |is: &dyn Fn(&Family) -> bool| families.iter().any(is);
         let mut rows = [Vec::new(), Vec::new()];
         match self.colours {
@@ -212,7 +212,7 @@ mod tests {
             let record = record.unwrap();
             let number = |column: usize| record[column].parse::<f64>().ok();
             let is_its = |variant: &&Variant| {
-                let family = variant.family();
+                let family = variant.family;
                 let names = [family.method.name(), family.events(), family.number.precision(), family.number.math()];
                 names.iter().zip(1..).all(|(name, column)| *name == &record[column]) && Some(variant.setting.value()) == number(6)
             };

@@ -45,11 +45,11 @@ pub(super) const SOURCES: [&str; 3] = ["libm", "own-polynomial", "micromath"];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy_study::variant::{Variant, variants};
+    use crate::accuracy_study::variant::variants;
 
     #[test]
     fn looks_distinguish_methods_events_and_precisions() {
-        let families: Vec<Family> = variants(true, 0.0).iter().map(Variant::family).collect();
+        let families: Vec<Family> = variants(true, 0.0).iter().map(|variant| variant.family).collect();
         for one in &families {
             for other in &families {
                 let looks = (Colours::Methods.look(one), Colours::Methods.look(other));

@@ -37,7 +37,7 @@ pub struct Reading {
 
 /// Follows `subject` as `variant` says, and looks at θ at the `times` (s, ascending).
 pub fn read(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
-    match variant.number {
+    match variant.family.number {
         Number::F64Libm => with_any_method::<f64>(subject, variant, times),
         Number::F32Own => with_any_method::<f32>(subject, variant, times),
         Number::F64Own => step_end::<Tiered<f64, OwnPolynomial>>(subject, variant, times),
@@ -47,11 +47,11 @@ pub fn read(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
 }
 
 fn with_any_method<S: Precision>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
-    if variant.events == EventTreatment::StepEnd {
+    if variant.family.events == EventTreatment::StepEnd {
         return step_end::<S>(subject, variant, times);
     }
     let step = || S::of(step_of(subject, variant));
-    let method = match (variant.method, variant.setting) {
+    let method = match (variant.family.method, variant.setting) {
         (variant::Method::SemiImplicitEuler, _) => Method::Fixed(FixedStep { scheme: Scheme::SemiImplicitEuler, step: step() }),
         (variant::Method::RungeKutta4, _) => Method::Fixed(FixedStep { scheme: Scheme::RungeKutta4, step: step() }),
         (variant::Method::ClosedForm, _) => Method::ClosedForm(step()),
@@ -144,7 +144,7 @@ impl<S: Real> Segmented for Watch<'_, S> {
 }
 
 fn step_end<S: Real>(subject: &Subject, variant: &Variant, times: &[f64]) -> Reading {
-    let method = variant.method;
+    let method = variant.family.method;
     let Ok(system) = subject.structure.resolve::<S>() else { return Reading::default() };
     let next = StepEnd { subject, system: &system, times, method, step: S::of(step_of(subject, variant)) };
     system.engaged.known(next)

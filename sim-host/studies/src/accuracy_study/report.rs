@@ -46,7 +46,7 @@ fn floor(number: Number) -> f64 {
 /// by their roundings.
 fn time_for(error: f64, settings: &[&Row]) -> Option<f64> {
     let keeps = |row: &Row, error: f64| row.peak_error.is_some_and(|own| own <= error);
-    let trusted = settings.iter().rev().take_while(|row| keeps(row, error.max(floor(row.variant.number))));
+    let trusted = settings.iter().rev().take_while(|row| keeps(row, error.max(floor(row.variant.family.number))));
     trusted.filter(|row| keeps(row, error)).map(|row| row.nanoseconds).reduce(f64::min)
 }
 
@@ -57,8 +57,8 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
         let of_device: Vec<&Row> = rows.iter().filter(|row| row.device == index).collect();
         let mut families: Vec<Family> = Vec::new();
         for row in &of_device {
-            if !families.contains(&row.variant.family()) {
-                families.push(row.variant.family());
+            if !families.contains(&row.variant.family) {
+                families.push(row.variant.family);
             }
         }
         let fastest = of_device.iter().map(|row| row.nanoseconds).fold(f64::INFINITY, f64::min);
@@ -66,7 +66,7 @@ pub fn page(title: &str, rows: &[Row], devices: &[String]) -> Page {
         let headings = ["method", "order", "1e-2", "1e-4", "1e-6", "1e-9", "smallest error", "wrong outcomes", "cycles a step"];
         let mut table = TextTable::new(1, headings);
         for family in families {
-            let own: Vec<&Row> = of_device.iter().copied().filter(|row| row.variant.family() == family).collect();
+            let own: Vec<&Row> = of_device.iter().copied().filter(|row| row.variant.family == family).collect();
             let points = own.iter().filter_map(|row| match row.variant.setting {
                 Setting::Step(step) => Some((step, row.history_error?)),
                 Setting::Tolerance(_) => None,
@@ -98,7 +98,7 @@ mod tests {
 
     /// Settings with these errors, each twice as slow as the one before.
     fn time(number: Number, error: f64, errors: &[Option<f64>]) -> Option<f64> {
-        let variant = variants(false, 1e-2).into_iter().find(|variant| variant.number == number).unwrap();
+        let variant = variants(false, 1e-2).into_iter().find(|variant| variant.family.number == number).unwrap();
         let row = |(index, &peak_error): (usize, &Option<f64>)| Row {
             device: 0,
             variant,

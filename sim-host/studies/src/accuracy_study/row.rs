@@ -56,13 +56,13 @@ pub struct RowText<'a> {
 impl Row {
     /// With the name of its device.
     pub fn text<'a>(&self, device: &'a str) -> RowText<'a> {
-        let Variant { method, number, setting, .. } = self.variant;
+        let Variant { family, setting } = self.variant;
         RowText {
             device,
-            method: method.name(),
-            events: self.variant.family().events(),
-            precision: number.precision(),
-            math: number.math(),
+            method: family.method.name(),
+            events: family.events(),
+            precision: family.number.precision(),
+            math: family.number.math(),
             setting: setting.name(),
             value: setting.value(),
             outcome_right: self.outcome_right,

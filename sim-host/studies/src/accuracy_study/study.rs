@@ -15,7 +15,7 @@ use super::board::Board;
 use super::probe::{Reading, read};
 use super::row::{Row, mark_front};
 use super::subject::Subject;
-use super::variant::{Method, Number, Setting, Variant, variants};
+use super::variant::{Family, Method, Number, Setting, Variant, variants};
 
 /// Instants at which histories are compared.
 const INSTANTS: usize = 1000;
@@ -31,9 +31,7 @@ const CELLS_AT_ONCE: usize = 8;
 
 /// The reference: the series, as tight as f64 allows.
 const REFERENCE: Variant = Variant {
-    method: Method::Taylor,
-    events: EventTreatment::Located,
-    number: Number::F64Libm,
+    family: Family { method: Method::Taylor, events: EventTreatment::Located, number: Number::F64Libm },
     setting: Setting::Tolerance(1e-17),
 };
 
@@ -111,7 +109,7 @@ pub fn study(
         let device = &devices[row.device];
         row.nanoseconds = device.nanoseconds(&row.variant);
         let structure = &device.subject.structure;
-        row.board = board.and_then(|board| board.cost(&row.variant, structure.geometry, structure.device.kind));
+        row.board = board.and_then(|board| board.cost(row.variant.family, structure.geometry, structure.device.kind));
         progress.step();
     }
     mark_front(&mut rows);

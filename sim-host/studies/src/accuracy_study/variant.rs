@@ -95,21 +95,10 @@ impl Setting {
 /// One way to follow a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variant {
-    /// Between events.
-    pub method: Method,
-    /// Whether events are located, or noticed at the ends of steps.
-    pub events: EventTreatment,
-    /// The numbers.
-    pub number: Number,
+    /// What it has in common with those that differ in the setting only.
+    pub family: Family,
     /// Step or tolerance.
     pub setting: Setting,
-}
-
-impl Variant {
-    /// What it has in common with those that differ in the setting only.
-    pub fn family(&self) -> Family {
-        Family { method: self.method, events: self.events, number: self.number }
-    }
 }
 
 /// Variants that differ in the setting only: a line of a figure.
@@ -117,7 +106,7 @@ impl Variant {
 pub struct Family {
     /// Between events.
     pub method: Method,
-    /// Located or noticed.
+    /// Whether events are located, or noticed at the ends of steps.
     pub events: EventTreatment,
     /// The numbers.
     pub number: Number,
@@ -168,7 +157,8 @@ pub fn variants(closed_form: bool, smallest: f64) -> Vec<Variant> {
     let mut variants = Vec::new();
     let mut steps = |method, events, number, from: f64| {
         let steps = STEPS.iter().filter(|step| **step >= from * (1.0 - 1e-9));
-        variants.extend(steps.map(|&step| Variant { method, events, number, setting: Setting::Step(step) }));
+        let family = Family { method, events, number };
+        variants.extend(steps.map(|&step| Variant { family, setting: Setting::Step(step) }));
     };
     let (located, step_end) = (EventTreatment::Located, EventTreatment::StepEnd);
     for method in [Method::SemiImplicitEuler, Method::RungeKutta4] {
@@ -186,13 +176,8 @@ pub fn variants(closed_form: bool, smallest: f64) -> Vec<Variant> {
             steps(Method::ClosedForm, located, number, smallest);
         }
     }
-    let taylor = |&tolerance: &f64| Variant {
-        method: Method::Taylor,
-        events: located,
-        number: Number::F64Libm,
-        setting: Setting::Tolerance(tolerance),
-    };
-    variants.extend(TOLERANCES.iter().map(taylor));
+    let family = Family { method: Method::Taylor, events: located, number: Number::F64Libm };
+    variants.extend(TOLERANCES.map(|tolerance| Variant { family, setting: Setting::Tolerance(tolerance) }));
     variants
 }
 
@@ -207,10 +192,10 @@ mod tests {
             assert!(all[..index].iter().all(|other| other != one), "{one:?} twice");
         }
         for method in [Method::SemiImplicitEuler, Method::RungeKutta4, Method::Taylor, Method::ClosedForm] {
-            assert!(all.iter().any(|variant| variant.method == method));
+            assert!(all.iter().any(|variant| variant.family.method == method));
         }
-        assert!(Number::ALL.iter().all(|number| all.iter().any(|variant| variant.number == *number)));
-        assert!(variants(false, 1e-2).iter().all(|variant| variant.method != Method::ClosedForm));
+        assert!(Number::ALL.iter().all(|number| all.iter().any(|variant| variant.family.number == *number)));
+        assert!(variants(false, 1e-2).iter().all(|variant| variant.family.method != Method::ClosedForm));
         assert!(variants(false, 1e-2).iter().all(|v| !matches!(v.setting, Setting::Step(step) if step < 1e-2)));
     }
 
@@ -218,7 +203,7 @@ mod tests {
     fn families_have_names_of_their_own() {
         let mut names: Vec<String> = Vec::new();
         for variant in variants(true, 1e-9) {
-            let name = variant.family().to_string();
+            let name = variant.family.to_string();
             if names.last() != Some(&name) {
                 assert!(!names.contains(&name), "{name}");
                 names.push(name);
