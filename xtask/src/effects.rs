@@ -34,127 +34,84 @@ const BARE: &[&str] = &["--no-default-features", "--features", "parquet,png,seri
 /// The scene, from the root.
 const SCENE: &str = "docs/effects-cost.toml";
 
-/// A row: name of the effect in the registry (or a base), what is set for it, its base, and the board's kernel.
+/// A row: name of the effect in the registry (or a base), its base, the board's kernel, and what is set for it.
 struct Row {
     name: &'static str,
-    set: &'static [&'static str],
     base: &'static str,
     kernel: &'static str,
+    set: &'static [&'static str],
+}
+
+const fn row(name: &'static str, base: &'static str, kernel: &'static str, set: &'static [&'static str]) -> Row {
+    Row { name, base, kernel, set }
 }
 
 const PAIR: &str = "device.0={kind=\"clutched-pair\",mass_ratio=0.5,kinematics=\"consistent\"";
 
 const ROWS: &[Row] = &[
-    Row { name: "block alone", set: &["device.0={kind=\"none\"}"], base: "", kernel: "" },
-    Row { name: "inerter", set: &["device.0={kind=\"inerter\",mass_ratio=0.5}"], base: "", kernel: "" },
-    Row {
-        name: "clutched pair",
-        set: &["device.0={kind=\"clutched-pair\",mass_ratio=0.5}"],
-        base: "",
-        kernel: "located-rk4-step",
-    },
-    Row {
-        name: "geometry",
-        set: &["block.geometry=\"full\"", "device.0={kind=\"clutched-pair\",mass_ratio=0.5}"],
-        base: "clutched pair",
-        kernel: "located-rk4-step",
-    },
-    Row { name: "kinematics", set: &["block.geometry=\"full\"", "PAIR}"], base: "geometry", kernel: "" },
-    Row {
-        name: "mount",
-        set: &["block.geometry=\"full\"", "PAIR,mount=\"tying-point\",mount_height_m=1.5}"],
-        base: "kinematics",
-        kernel: "",
-    },
-    Row { name: "impact", set: &["PAIR}", "block.restitution=\"momentum-balance\""], base: "clutched pair", kernel: "" },
-    Row { name: "scatter", set: &["PAIR}", "block.restitution_scatter=0.02"], base: "clutched pair", kernel: "" },
-    Row {
-        name: "foundation",
-        set: &["block.geometry=\"full\"", "PAIR}", "block.foundation={vertical_frequency_hz=10.0,damping_ratio=0.3}"],
-        base: "geometry",
-        kernel: "",
-    },
-    Row {
-        name: "sliding",
-        set: &["block.geometry=\"full\"", "device.0={kind=\"none\"}", "block.friction_coefficient=0.3"],
-        base: "block alone",
-        kernel: "",
-    },
-    Row {
-        name: "vertical",
-        set: &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],
-        base: "clutched pair",
-        kernel: "machine-alone-vertical",
-    },
-    Row {
-        name: "flywheel",
-        set: &[
-            "PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0}}",
-        ],
-        base: "clutched pair",
-        kernel: "machine-rigid",
-    },
-    Row {
-        name: "flywheel, drag",
-        set: &[
-            "PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0,\
-             drag_rate_1_s=0.1},actuation={engagement_delay_s=0.02}}",
-        ],
-        base: "flywheel",
-        kernel: "machine-drag",
-    },
-    Row { name: "engagement", set: &["PAIR,engagement=\"overrunning\"}"], base: "clutched pair", kernel: "machine-overrunning" },
-    Row { name: "clutch", set: &["PAIR,clutch={capacity_ratio=0.1}}"], base: "clutched pair", kernel: "machine-friction-clutch" },
-    Row {
-        name: "clutch, elastic",
-        set: &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}"],
-        base: "clutched pair",
-        kernel: "machine-elastic-rk4",
-    },
-    Row {
-        name: "clutch, elastic, exponential",
-        set: &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}", "accuracy.method=\"exponential-midpoint\""],
-        base: "clutched pair",
-        kernel: "machine-elastic-exponential",
-    },
-    Row { name: "slip", set: &["PAIR,inertance_corner_hz=4.0}"], base: "clutched pair", kernel: "machine-viscous-slip" },
-    Row {
-        name: "rack, load friction",
-        set: &["PAIR,engagement=\"rigid\",rack={load_friction=0.05}}"],
-        base: "flywheel",
-        kernel: "machine-load-friction",
-    },
-    Row {
-        name: "rack",
-        set: &["PAIR,rack={dry_friction_ratio=0.01,viscous_1_s=0.05}}"],
-        base: "clutched pair",
-        kernel: "machine-ideal-pair-friction",
-    },
-    Row {
-        name: "actuation",
-        set: &["PAIR,actuation={engagement_delay_s=0.02,release_delay_s=0.02}}"],
-        base: "clutched pair",
-        kernel: "machine-ideal-pair",
-    },
-    Row {
-        name: "actuation, coil",
-        set: &["PAIR,clutch={capacity_ratio=0.1},actuation={time_constant_s=0.1}}"],
-        base: "clutch",
-        kernel: "",
-    },
-    Row { name: "weight", set: &["PAIR,weight={rack_ratio=0.01}}"], base: "clutched pair", kernel: "" },
-    Row { name: "support", set: &["PAIR,support_amplification=1.2}"], base: "clutched pair", kernel: "" },
-    Row {
-        name: "support, oscillator",
-        set: &["PAIR,support_frequency_hz=5.0,support_damping_ratio=0.05}"],
-        base: "clutched pair",
-        kernel: "",
-    },
-    Row { name: "checks", set: &["PAIR}", "checks={}"], base: "clutched pair", kernel: "" },
-    Row { name: "energy", set: &["PAIR}", "output.energy=true"], base: "clutched pair", kernel: "" },
-    Row {
-        name: "all together",
-        set: &[
+    row("block alone", "", "", &["device.0={kind=\"none\"}"]),
+    row("inerter", "", "", &["device.0={kind=\"inerter\",mass_ratio=0.5}"]),
+    row("clutched pair", "", "located-rk4-step", &["device.0={kind=\"clutched-pair\",mass_ratio=0.5}"]),
+    row(
+        "geometry",
+        "clutched pair",
+        "located-rk4-step",
+        &["block.geometry=\"full\"", "device.0={kind=\"clutched-pair\",mass_ratio=0.5}"],
+    ),
+    row("kinematics", "geometry", "", &["block.geometry=\"full\"", "PAIR}"]),
+    row("mount", "kinematics", "", &["block.geometry=\"full\"", "PAIR,mount=\"tying-point\",mount_height_m=1.5}"]),
+    row("impact", "clutched pair", "", &["PAIR}", "block.restitution=\"momentum-balance\""]),
+    row("scatter", "clutched pair", "", &["PAIR}", "block.restitution_scatter=0.02"]),
+    row(
+        "foundation",
+        "geometry",
+        "",
+        &["block.geometry=\"full\"", "PAIR}", "block.foundation={vertical_frequency_hz=10.0,damping_ratio=0.3}"],
+    ),
+    row("sliding", "block alone", "", &["block.geometry=\"full\"", "device.0={kind=\"none\"}", "block.friction_coefficient=0.3"]),
+    row(
+        "vertical",
+        "clutched pair",
+        "machine-alone-vertical",
+        &["PAIR}", "vertical=[{motion=\"sine\",amplitude_g=0.01,frequency_hz=0.1}]"],
+    ),
+    row(
+        "flywheel",
+        "clutched pair",
+        "machine-rigid",
+        &["PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0}}"],
+    ),
+    row(
+        "flywheel, drag",
+        "flywheel",
+        "machine-drag",
+        &["PAIR,engagement=\"rigid\",flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0,\
+           drag_rate_1_s=0.1},actuation={engagement_delay_s=0.02}}"],
+    ),
+    row("engagement", "clutched pair", "machine-overrunning", &["PAIR,engagement=\"overrunning\"}"]),
+    row("clutch", "clutched pair", "machine-friction-clutch", &["PAIR,clutch={capacity_ratio=0.1}}"]),
+    row("clutch, elastic", "clutched pair", "machine-elastic-rk4", &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}"]),
+    row(
+        "clutch, elastic, exponential",
+        "clutched pair",
+        "machine-elastic-exponential",
+        &["PAIR,clutch={stiffness_ratio=1e4,damping_ratio=0.1}}", "accuracy.method=\"exponential-midpoint\""],
+    ),
+    row("slip", "clutched pair", "machine-viscous-slip", &["PAIR,inertance_corner_hz=4.0}"]),
+    row("rack, load friction", "flywheel", "machine-load-friction", &["PAIR,engagement=\"rigid\",rack={load_friction=0.05}}"]),
+    row("rack", "clutched pair", "machine-ideal-pair-friction", &["PAIR,rack={dry_friction_ratio=0.01,viscous_1_s=0.05}}"]),
+    row("actuation", "clutched pair", "machine-ideal-pair", &["PAIR,actuation={engagement_delay_s=0.02,release_delay_s=0.02}}"]),
+    row("actuation, coil", "clutch", "", &["PAIR,clutch={capacity_ratio=0.1},actuation={time_constant_s=0.1}}"]),
+    row("weight", "clutched pair", "", &["PAIR,weight={rack_ratio=0.01}}"]),
+    row("support", "clutched pair", "", &["PAIR,support_amplification=1.2}"]),
+    row("support, oscillator", "clutched pair", "", &["PAIR,support_frequency_hz=5.0,support_damping_ratio=0.05}"]),
+    row("checks", "clutched pair", "", &["PAIR}", "checks={}"]),
+    row("energy", "clutched pair", "", &["PAIR}", "output.energy=true"]),
+    row(
+        "all together",
+        "block alone",
+        "machine-all-together",
+        &[
             "block.geometry=\"full\"",
             "block.restitution=\"momentum-balance\"",
             "PAIR,clutch={capacity_ratio=0.1},flywheel={viscous_rate_1_s=0.05,dry_deceleration_m_s2=0.3,brake_deceleration_m_s2=5.0},\
@@ -164,9 +121,7 @@ const ROWS: &[Row] = &[
             "checks={}",
             "output.energy=true",
         ],
-        base: "block alone",
-        kernel: "machine-all-together",
-    },
+    ),
 ];
 
 /// What was measured.
