@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AxeBuilder } from "@axe-core/playwright";
 import { keep, open, texts, until } from "./browser.mjs";
-import { EXAMPLES, anotherDigest, choose, shownDigest, toml } from "./shell.mjs";
+import { EXAMPLES, anotherDigest, choose, opened, shownDigest, toml } from "./shell.mjs";
 import { filled, panels, said, sections } from "./views.mjs";
 
 const words = texts.page;
@@ -91,8 +91,7 @@ test("every control has a name, and is reached by Tab with a focus that is seen"
 });
 
 test("by keyboard alone: an example is chosen, played, and a block taken from its map", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   const list = page.getByLabel(words.controls.example, { exact: true });
   await until("examples", async () => (await list.locator("option").count()) > 3);
   await list.focus();
@@ -115,8 +114,7 @@ test("by keyboard alone: an example is chosen, played, and a block taken from it
 });
 
 test("a user who wants less motion sees none that was not asked for", async (t) => {
-  const page = await open(t, { reducedMotion: "reduce" });
-  await anotherDigest(page, null);
+  const { page } = await opened(t, { reducedMotion: "reduce" });
   await page.waitForTimeout(500);
   assert.equal(Number(await page.getByLabel(words.transport.time, { exact: true }).inputValue()), 0);
   await page.getByRole("button", { name: words.transport.play, exact: true }).click();

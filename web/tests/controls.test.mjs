@@ -3,13 +3,12 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { hold, holdable, isHeld, letGo } from "./hold.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
 
 test("every number of block and ground changes the run, and its first value brings it back", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   const { size, slenderness, restitution, massRatio, amplitude, frequency } = words.controls;
   for (const name of [size, slenderness, restitution, massRatio, amplitude, frequency]) {
     const typed = page.getByRole("spinbutton", { name, exact: true });
@@ -41,8 +40,7 @@ async function release(page) {
 }
 
 test("the block is dragged, let go, and shaken again", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   await release(page);
   const free = await anotherDigest(page, first);
   assert.notEqual(free, first);
@@ -51,8 +49,7 @@ test("the block is dragged, let go, and shaken again", async (t) => {
 });
 
 test("a block that is shaken again keeps what was changed since it was let go", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   const resize = async (sizeM) => {
     const box = page.getByRole("spinbutton", { name: words.controls.size, exact: true });
     await box.fill(sizeM);
@@ -73,8 +70,7 @@ test("a block that is shaken again keeps what was changed since it was let go", 
 });
 
 test("a block that was let go gives another scene no ground motion", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   await release(page);
   await anotherDigest(page, first);
   const shake = page.getByRole("button", { name: words.block.shake });
@@ -84,8 +80,7 @@ test("a block that was let go gives another scene no ground motion", async (t) =
 });
 
 test("a change that is made while the one before it is run stays", async (t) => {
-  const page = await open(t, { prepare: holdable });
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t, { prepare: holdable });
   const add = async (kind, name) => {
     await page.getByLabel(words.controls.addDevice, { exact: true }).selectOption(kind);
     await until(name, async () => (await toml(page).inputValue()).includes(name));
@@ -102,8 +97,7 @@ test("a change that is made while the one before it is run stays", async (t) => 
 });
 
 test("time goes where it is put, from event to event, and to the end", async (t) => {
-  const page = await open(t);
-  await anotherDigest(page, null);
+  const { page } = await opened(t);
   const place = page.getByLabel(words.transport.time, { exact: true });
   const at = async () => Number(await place.inputValue());
   const { next, previous } = words.transport;
@@ -190,8 +184,7 @@ test("every button, list and number of the page can be used without harm", async
 });
 
 test("results are downloaded", async (t) => {
-  const page = await open(t);
-  await anotherDigest(page, null);
+  const { page } = await opened(t);
   const { toml, csv, svg, png } = words.scene;
   const file = async (name) => {
     const { name: suggested, bytes } = await downloaded(page, page.getByRole("button", { name, exact: true }));

@@ -2,14 +2,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 import { filled, sections } from "./views.mjs";
 
 const words = texts.page;
 
 test("a scene with an unknown key is refused by its name, and goes on when it is mended", async (t) => {
-  const page = await open(t);
-  const before = await anotherDigest(page, null);
+  const { page, first: before } = await opened(t);
   const good = await toml(page).inputValue();
   await toml(page).fill(good.replace("size_m", "sizes_m"));
   await until("the line", async () => /sizes_m/.test(await alert(page).innerText()));
@@ -23,8 +22,7 @@ test("a scene with an unknown key is refused by its name, and goes on when it is
 });
 
 test("a tab that was hidden for an hour goes on where it was, without a heap of frames", async (t) => {
-  const page = await open(t, { prepare: hideable });
-  await anotherDigest(page, null);
+  const { page } = await opened(t, { prepare: hideable });
   const place = page.getByLabel(words.transport.time, { exact: true });
   const at = async () => Number(await place.inputValue());
   await page.getByLabel(words.transport.speed).selectOption({ index: 3 });
@@ -42,8 +40,7 @@ test("a tab that was hidden for an hour goes on where it was, without a heap of 
 });
 
 test("a worker that dies is said, or replaced, and the page goes on", async (t) => {
-  const page = await open(t, { prepare: keepWorkers, mayFail: true });
-  const before = await anotherDigest(page, null);
+  const { page, first: before } = await opened(t, { prepare: keepWorkers, mayFail: true });
   await page.evaluate(() => {
     const [first] = window.workers_seen;
     first.terminate();

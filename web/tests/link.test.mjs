@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
 
@@ -26,8 +26,7 @@ test("a link that is opened again gives the same digest", async (t) => {
 });
 
 test("the way back leads to the scene of each address", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   await choose(page, EXAMPLES.figure08);
   const second = await anotherDigest(page, first);
   const hash = await until("the scene in the address", async () => {
@@ -48,8 +47,7 @@ test("the way back leads to the scene of each address", async (t) => {
 });
 
 test("a scene that is too long for a link is said to be, and no link is copied", async (t) => {
-  const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
-  await anotherDigest(page, null);
+  const { page } = await opened(t, { permissions: ["clipboard-read", "clipboard-write"] });
   const short = await toml(page).inputValue();
   await toml(page).fill(`${short}# ${"x".repeat(200_000)}\n`);
   const says = (line) =>
@@ -70,8 +68,7 @@ for (const [what, prepare] of [
   ["has no clipboard", () => void Object.defineProperty(navigator, "clipboard", { value: undefined })],
 ]) {
   test(`a link is not said to be copied where the browser ${what}`, async (t) => {
-    const page = await open(t, { permissions: ["clipboard-read", "clipboard-write"] });
-    await anotherDigest(page, null);
+    const { page } = await opened(t, { permissions: ["clipboard-read", "clipboard-write"] });
     const link = page.getByRole("button", { name: words.scene.link, exact: true });
     const copied = page.getByText(words.scene.copied, { exact: true });
     await link.click();
@@ -89,8 +86,7 @@ for (const [what, change] of [
   ["of nothing", () => "#s="],
 ]) {
   test(`an address that is ${what} gives a line and the first example`, async (t) => {
-    const page = await open(t);
-    const first = await anotherDigest(page, null);
+    const { page, first } = await opened(t);
     await choose(page, EXAMPLES.figure08);
     const hash = await until("the scene in the address", async () => new URL(page.url()).hash);
     const broken = await open(t, { hash: change(hash) });

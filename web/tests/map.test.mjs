@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { colours, digest, filled, panels, said, sections } from "./views.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, opened, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.views.map;
 const OVERTURNED = ["54 20 38 255", "213 94 0 255"];
@@ -106,8 +106,7 @@ test("arrow keys move over cells, Enter takes one", async (t) => {
 });
 
 test("while a cell is played, controls change the scene, and downloads are of the cell", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   const { map } = sections(page);
   const { controls, scene } = texts.page;
   const axis = (key, from, to) => `{ key = "${key}", from = ${from}, to = ${to}, cells = 8 }`;
@@ -218,8 +217,7 @@ test("two axes that are changed at once are both changed", async (t) => {
 });
 
 test("a map that cannot be had is said, without the panels of another, and comes when it is mended", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   await filled(page);
   const { map } = sections(page);
   const text = await toml(page).inputValue();
@@ -241,8 +239,7 @@ test("a map that cannot be had is said, without the panels of another, and comes
 });
 
 test("a map over a device goes with the device", async (t) => {
-  const page = await open(t);
-  const first = await anotherDigest(page, null);
+  const { page, first } = await opened(t);
   const { map } = sections(page);
   await map.scrollIntoViewIfNeeded();
   const own = await toml(page).inputValue();

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, scene, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, drop, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, drop, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page.records;
 
@@ -12,13 +12,8 @@ const MOTION = `time_s,acceleration_m_s2\n${Array.from({ length: 301 }, (_, inde
   return `${time.toFixed(2)},${(2 * Math.sin((2 * Math.PI * time) / 1.5) * Math.sin((Math.PI * time) / 3) ** 2).toFixed(6)}`;
 }).join("\n")}\n`;
 
-async function opened(t) {
-  const page = await open(t);
-  return { page, before: await anotherDigest(page, null) };
-}
-
 test("a record that is dropped shakes the block", async (t) => {
-  const { page, before } = await opened(t);
+  const { page, first: before } = await opened(t);
   await drop(page, "own.csv", MOTION);
   await anotherDigest(page, before);
   assert.match(await toml(page).inputValue(), /file = "own.csv"/);
@@ -65,7 +60,7 @@ test("a link asks for an own record of the shipped one's name, and takes the shi
 });
 
 test("units are asked for where a record has none", async (t) => {
-  const { page, before } = await opened(t);
+  const { page, first: before } = await opened(t);
   await drop(page, "bare.txt", MOTION.replace(/^.*\n/, "").replace(/^.*,/gm, ""));
   await until("the question", () => page.getByLabel(words.units).isVisible());
   assert.equal(await shownDigest(page), before, "nothing is lost");
@@ -81,7 +76,7 @@ for (const [what, name, content, line] of [
   ["a file of 200 MB", "huge.csv", 200, /huge\.csv.*200 MB/],
 ]) {
   test(`${what} gives one line and takes nothing away`, async (t) => {
-    const { page, before } = await opened(t);
+    const { page, first: before } = await opened(t);
     await drop(page, name, content);
     await until("a line", async () => line.test(await page.locator("body").innerText()));
     const said = (await alert(page).allInnerTexts()).join("\n");

@@ -1,5 +1,5 @@
 // The page around the views, as a user finds it.
-import { texts, until } from "./browser.mjs";
+import { open, texts, until } from "./browser.mjs";
 
 const words = texts.page;
 
@@ -10,6 +10,12 @@ export const EXAMPLES = {
   nearFault: "Near-fault motion",
   controller: "Closed loop under a near-fault motion",
 };
+
+/** Opens the page as `open` does, and waits for the digest of its first run. */
+export async function opened(t, options) {
+  const page = await open(t, options);
+  return { page, first: await anotherDigest(page, null) };
+}
 
 /** Opens a shipped scene, and waits until it has run. */
 export async function choose(page, title) {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, texts, until } from "./browser.mjs";
-import { EXAMPLES, anotherDigest, choose } from "./shell.mjs";
+import { EXAMPLES, choose, opened } from "./shell.mjs";
 import { filled, sections } from "./views.mjs";
 
 const words = texts.views.map;
@@ -48,8 +48,7 @@ test("the animation goes on while a map is filled", async (t) => {
 });
 
 test("the first picture comes soon after the page is opened", async (t) => {
-  const page = await open(t);
-  await anotherDigest(page, null);
+  const { page } = await opened(t);
   const ready = await page.evaluate(() => performance.now());
   t.diagnostic(`first run shown ${ready.toFixed(0)} ms after the page was asked for, at most`);
   assert.ok(ready < SLOWEST_PICTURE_MS);
