@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AxeBuilder } from "@axe-core/playwright";
 import { keep, open, texts, until } from "./browser.mjs";
-import { EXAMPLES, anotherDigest, choose, opened, shownDigest, toml } from "./shell.mjs";
+import { EXAMPLES, anotherDigest, choose, enter, opened, shownDigest, toml } from "./shell.mjs";
 import { filled, panels, said, sections } from "./views.mjs";
 
 const words = texts.page;
@@ -17,8 +17,7 @@ async function full(t, options) {
   const { map: words } = texts.views;
   for (const axis of [words.axis.x, words.axis.y]) {
     const cells = sections(page).map.getByRole("group", { name: axis }).getByLabel(words.cells);
-    await cells.fill("24");
-    await cells.press("Tab");
+    await enter(cells, "24");
     await until(
       "a map of this size",
       async () => (await toml(page).inputValue()).split("cells = 24").length > (axis === words.axis.y ? 2 : 1),

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, scene, texts, until } from "./browser.mjs";
 import { hold, holdable, isHeld, letGo } from "./hold.mjs";
-import { EXAMPLES, alert, choose, toml } from "./shell.mjs";
+import { EXAMPLES, alert, choose, enter, toml } from "./shell.mjs";
 import { sections } from "./views.mjs";
 
 const words = texts.views.loop;
@@ -77,12 +77,10 @@ test("every setting of the controller counts, and the same setting gives the sam
     [words.latency, "20", "1"],
   ];
   for (const [label, other, own] of numbers) {
-    await loop.getByLabel(label, { exact: true }).fill(other);
-    await loop.getByLabel(label, { exact: true }).press("Tab");
+    await enter(loop.getByLabel(label, { exact: true }), other);
     await looped(page, first);
     const share = await result(page, words.results.wrong);
-    await loop.getByLabel(label, { exact: true }).fill(own);
-    await loop.getByLabel(label, { exact: true }).press("Tab");
+    await enter(loop.getByLabel(label, { exact: true }), own);
     await until(`${label} as before`, async () => (await digest(page)) === first);
     if (label === words.latency) {
       assert.ok(parseFloat(share) > parseFloat(await result(page, words.results.wrong)), "20 ms more delay, more wrong decisions");
@@ -99,8 +97,7 @@ test("a number beyond its limits is said in one line, and the scene keeps its ow
     [words.seed, "-1", "1", /controller\.sensors\.seed is -1, but must be a whole number/],
   ]) {
     const box = sections(page).loop.getByLabel(label, { exact: true });
-    await box.fill(wrong);
-    await box.press("Tab");
+    await enter(box, wrong);
     await until(`a line about ${label}`, async () => line.test(await alert(page).innerText()));
     assert.equal((await alert(page).locator("span").innerText()).split("\n").length, 1);
     await until(`${label} of the scene`, async () => (await box.inputValue()) === own);
@@ -112,8 +109,7 @@ test("a change that comes while a loop runs is run after it", async (t) => {
   const { page, first } = await openLoop(t, { prepare: holdable });
   const delay = async (milliseconds) => {
     const box = sections(page).loop.getByLabel(words.latency, { exact: true });
-    await box.fill(String(milliseconds));
-    await box.press("Tab");
+    await enter(box, milliseconds);
     await until("the delay", async () => (await toml(page).inputValue()).includes(`latency_s = ${milliseconds / 1000}`));
   };
   const shows = (wanted) => until(`the loop ${wanted}`, async () => (await digest(page)) === wanted);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { hold, holdable, isHeld, letGo } from "./hold.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, enter, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
 
@@ -14,18 +14,15 @@ test("every number of block and ground changes the run, and its first value brin
     const typed = page.getByRole("spinbutton", { name, exact: true });
     const own = await typed.inputValue();
     assert.notEqual(own, "", name);
-    await typed.fill(String(Number(own) * 0.93));
-    await typed.press("Tab");
+    await enter(typed, Number(own) * 0.93);
     await anotherDigest(page, first);
-    await typed.fill(own);
-    await typed.press("Tab");
+    await enter(typed, own);
     await thisDigest(page, first);
     const slider = page.getByRole("slider", { name, exact: true });
     await slider.focus();
     await page.keyboard.press("ArrowRight");
     await anotherDigest(page, first);
-    await typed.fill(own);
-    await typed.press("Tab");
+    await enter(typed, own);
     await thisDigest(page, first);
   }
 });
@@ -50,11 +47,7 @@ test("the block is dragged, let go, and shaken again", async (t) => {
 
 test("a block that is shaken again keeps what was changed since it was let go", async (t) => {
   const { page, first } = await opened(t);
-  const resize = async (sizeM) => {
-    const box = page.getByRole("spinbutton", { name: words.controls.size, exact: true });
-    await box.fill(sizeM);
-    await box.press("Tab");
-  };
+  const resize = (sizeM) => enter(page.getByRole("spinbutton", { name: words.controls.size, exact: true }), sizeM);
   await resize("2.5");
   const larger = await anotherDigest(page, first);
   await resize("2");
@@ -127,8 +120,7 @@ test("a number that is typed stays while the change before it comes in", async (
     [size, ["2.5", "size_m = 2.5"], slenderness, ["12", "slenderness_deg = 12"]],
     [latency, ["2", "latency_s = 0.002"], rate, ["1000", "rate_hz = 1000"]],
   ]) {
-    await box(before).fill(changed[0]);
-    await box(before).press("Tab");
+    await enter(box(before), changed[0]);
     await box(typed).fill(kept[0]);
     await has(changed[1]);
     // Longer than whoever shows the scene waits for the next change.

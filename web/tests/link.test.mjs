@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, enter, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page;
 
@@ -10,9 +10,7 @@ test("a link that is opened again gives the same digest", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.nearFault);
   const shipped = await shownDigest(page);
-  const size = page.getByRole("spinbutton", { name: words.controls.size });
-  await size.fill("2.4");
-  await size.press("Tab");
+  await enter(page.getByRole("spinbutton", { name: words.controls.size }), "2.4");
   const digest = await anotherDigest(page, shipped);
   const hash = await until("the scene in the address", async () => {
     const now = new URL(page.url()).hash;

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { colours, digest, filled, panels, said, sections } from "./views.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, opened, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, enter, opened, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.views.map;
 const OVERTURNED = ["54 20 38 255", "213 94 0 255"];
@@ -168,8 +168,7 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await keep(page, "boundaries");
   await keep(page, "map-section", sections(page).map);
 
-  await across.getByLabel(words.cells).fill("40");
-  await across.getByLabel(words.cells).press("Tab");
+  await enter(across.getByLabel(words.cells), "40");
   await until("a narrower map", () =>
     panels(page)
       .first()
@@ -184,12 +183,10 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
       .count(),
   );
   await filled(page);
-  await across.getByLabel(words.from).fill("99");
-  await across.getByLabel(words.from).press("Tab");
+  await enter(across.getByLabel(words.from), "99");
   await until("a line about the axis", () => page.getByText(words.wrongAxis).isVisible());
   await alert(page).getByRole("button", { name: texts.page.dismiss }).click();
-  await up.getByLabel(words.cells).fill("5000");
-  await up.getByLabel(words.cells).press("Tab");
+  await enter(up.getByLabel(words.cells), "5000");
   await until("a line about the cells", () => page.getByText(words.wrongAxis).isVisible());
 
   await up.getByLabel(words.key).selectOption("");

@@ -27,6 +27,12 @@ export async function choose(page, title) {
   await until(`a run of ${title}`, async () => (await toml(page).inputValue()).includes(title) && (await shownDigest(page)) !== before);
 }
 
+/** Types `value` into `box` and leaves it, which is when it counts. */
+export async function enter(box, value) {
+  await box.fill(String(value));
+  await box.press("Tab");
+}
+
 /** The text of the scene. */
 export const toml = (page) => page.getByLabel(words.scene.edit);
 

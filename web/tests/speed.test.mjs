@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, texts, until } from "./browser.mjs";
-import { EXAMPLES, choose, opened } from "./shell.mjs";
+import { EXAMPLES, choose, enter, opened } from "./shell.mjs";
 import { filled, sections } from "./views.mjs";
 
 const words = texts.views.map;
@@ -29,8 +29,7 @@ test("the animation goes on while a map is filled", async (t) => {
   const { map } = sections(page);
   for (const axis of [words.axis.x, words.axis.y]) {
     const cells = map.getByRole("group", { name: axis }).getByLabel(words.cells);
-    await cells.fill("256");
-    await cells.press("Tab");
+    await enter(cells, "256");
   }
   await filled(page);
   await until("the larger map", () => map.getByText(/^65,536 cells a device, in/).count());
