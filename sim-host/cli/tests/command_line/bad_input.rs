@@ -144,31 +144,38 @@ fn a_full_disk_leaves_nothing_behind() {
     assert!(!out.exists(), "an empty folder");
 }
 
-#[test]
-fn bad_input_of_sensitivity_costs_one_line() {
+/// Expects that `command` refuses `file`, with `more` on its line.
+fn refuses(command: &str, file: &str, more: &[&str], words: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
+    refused(&[&[command, file, "--out", out.to_str().unwrap()], more].concat(), &out, words);
+}
+
+/// The same of a study with this text.
+fn refuses_study(command: &str, text: &str, more: &[&str], words: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let study = folder.path().join("study.toml");
+    fs::write(&study, text).unwrap();
+    refuses(command, study.to_str().unwrap(), more, words);
+}
+
+#[test]
+fn bad_input_of_sensitivity_costs_one_line() {
+    let line = |scene: &str, more: &[&str], words: &[&str]| refuses("sensitivity", scene, more, words);
     let near_fault = scene("near_fault");
-    let line = |scene: &str, more: &[&str], words: &[&str]| {
-        refused(&[&["sensitivity", scene, "--out", out.to_str().unwrap()], more].concat(), &out, words);
-    };
     line("nowhere.toml", &[], &["nowhere.toml"]);
     line(&near_fault, &["--set", "block.colour=red"], &["colour"]);
     line(&scene("figure05"), &["--records", "x.AT2"], &["motion = \"record\""]);
     line(&scene("record"), &[], &["--record"]);
     line(&near_fault, &["--records", "x.AT2", "y.AT2", "--records-vertical", "z.AT2"], &["1 files", "2"]);
-    let empty = folder.path().to_str().unwrap();
-    line(&near_fault, &["--records", "x.AT2", "--records-vertical", empty], &["0 files", "1"]);
+    let empty = tempfile::tempdir().unwrap();
+    line(&near_fault, &["--records", "x.AT2", "--records-vertical", empty.path().to_str().unwrap()], &["0 files", "1"]);
 }
 
 #[test]
 fn bad_input_of_design_costs_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
+    let line = |scene: &str, more: &[&str], words: &[&str]| refuses("design", scene, more, words);
     let near_fault = scene("near_fault");
-    let line = |scene: &str, more: &[&str], words: &[&str]| {
-        refused(&[&["design", scene, "--out", out.to_str().unwrap()], more].concat(), &out, words);
-    };
     line("nowhere.toml", &[], &["nowhere.toml"]);
     line(&near_fault, &[], &["block.mass_kg is missing", "--set block.mass_kg"]);
     let heavy = |more: &[&str], words: &[&str]| {
@@ -183,19 +190,9 @@ fn bad_input_of_design_costs_one_line() {
     heavy(&["--device", "none"], &["--device \"none\"", "\"inerter\", \"clutched pair\""]);
     heavy(&["--allowable-stress", "0.01"], &["inerter", "module 50 mm", "0.01 MPa"]);
     heavy(&["--set", "ground.0.scale=0.01"], &["no motion lifts the block"]);
-    heavy(
-        &[
-            "--records",
-            "x.AT2",
-            "--set",
-            "vertical.0.motion=sine",
-            "--set",
-            "vertical.0.amplitude_g=0.1",
-            "--set",
-            "vertical.0.frequency_hz=1",
-        ],
-        &["[[vertical]] or --records"],
-    );
+    let vertical =
+        ["vertical.0.motion=sine", "vertical.0.amplitude_g=0.1", "vertical.0.frequency_hz=1"].map(|key| ["--set", key]);
+    heavy(&[&["--records", "x.AT2"], vertical.as_flattened()].concat(), &["[[vertical]] or --records"]);
     line(&scene("figure05"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["motion = \"record\""]);
     line(&scene("record"), &["--set", "block.mass_kg=10000"], &["--record"]);
     line(&scene("record"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["no ground motion could be read", "x.AT2"]);
@@ -203,13 +200,7 @@ fn bad_input_of_design_costs_one_line() {
 
 #[test]
 fn bad_input_of_cloud_costs_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let study = folder.path().join("study.toml");
-    let line = |text: &str, more: &[&str], words: &[&str]| {
-        fs::write(&study, text).unwrap();
-        refused(&[&["cloud", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
-    };
+    let line = |text: &str, more: &[&str], words: &[&str]| refuses_study("cloud", text, more, words);
     line("", &[], &["study.toml: records is missing", "--records"]);
     line("records = 'a.csv'", &[], &["study.toml:1", "records"]);
     line("record = ['a.csv']", &[], &["study.toml:1", "record"]);
@@ -222,13 +213,7 @@ fn bad_input_of_cloud_costs_one_line() {
 
 #[test]
 fn bad_input_of_optimise_costs_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let study = folder.path().join("study.toml");
-    let line = |text: &str, more: &[&str], words: &[&str]| {
-        fs::write(&study, text).unwrap();
-        refused(&[&["optimise", study.to_str().unwrap(), "--out", out.to_str().unwrap()], more].concat(), &out, words);
-    };
+    let line = |text: &str, more: &[&str], words: &[&str]| refuses_study("optimise", text, more, words);
     let records = ["--records", "a.csv"];
     line("", &[], &["study.toml: records is missing", "--records"]);
     line("", &["--records", "a.csv", "--time-budget", "1", "--resume"], &["--time-budget", "--resume"]);
@@ -244,10 +229,7 @@ fn bad_input_of_optimise_costs_one_line() {
 
 #[test]
 fn bad_input_of_loop_costs_one_line() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("out");
-    let place = out.to_str().unwrap();
-    let scene_file = scene("controller");
+    let controller = scene("controller");
     for (set, words) in [
         ("controller.rate_hz=5", &["controller.rate_hz", "100"][..]),
         ("controller.law=\"nonsense\"", &["controller.law", "sign-table"][..]),
@@ -258,6 +240,6 @@ fn bad_input_of_loop_costs_one_line() {
         ("device.0.engagement=\"overrunning\"", &["overrunning"][..]),
         ("block.initial_rotation_ratio=0.5", &["block.initial_rotation_ratio"][..]),
     ] {
-        refused(&["loop", &scene_file, "--set", set, "--out", place], &out, words);
+        refuses("loop", &controller, &["--set", set], words);
     }
 }
