@@ -106,18 +106,25 @@ impl<S: Real> Threshold<S> {
             curvature = curvature + self.support.abs() * support.curvature_bound();
         }
         curvature = curvature + push.abs() * rate * rate;
-        let rounding = self.rounding(ground);
-        if above && slope > S::ZERO && slope * slope > S::of(2.0) * curvature * rounding {
+        let rounding = |t: S| self.rounding(shaking.at(t));
+        // A rise that may turn within rounding moves nothing before it is more than that.
+        let grazes = |t: S, slope: S| slope * slope <= S::of(2.0) * curvature * rounding(t);
+        if above && slope > S::ZERO && !grazes(from, slope) {
             return Some((from, true));
         }
-        // A rise that may turn within rounding moves nothing before it is more than that.
-        let least = if above && slope >= S::ZERO { rounding } else { S::ZERO };
-        let above_least = |t: S| {
-            let (value, slope) = value(t);
-            (value - least, slope)
+        let first = |start: S, least: S| {
+            let above_least = |t: S| {
+                let (value, slope) = value(t);
+                (value - least, slope)
+            };
+            let stretch = (start, to, value(to).0 - least);
+            first_zero_of(above_least, curvature, stretch, Sign::Negative, above && least == S::ZERO)
         };
-        let zero =
-            first_zero_of(above_least, curvature, (from, to, value(to).0 - least), Sign::Negative, above && least == S::ZERO);
+        let zero = if above && slope >= S::ZERO {
+            first(from, rounding(from))
+        } else {
+            first(from, S::ZERO).and_then(|t| if grazes(t, value(t).1) { first(t, rounding(t)) } else { Some(t) })
+        };
         // A breakaway within rounding of the segment's end belongs to the next segment.
         zero.filter(|&t| to - t > to * S::EPSILON * S::of(4.0)).map(|t| (t, true))
     }

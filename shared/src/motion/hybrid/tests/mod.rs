@@ -26,6 +26,7 @@ use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Limits};
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::observers::peaks::Peaks;
@@ -132,6 +133,11 @@ impl Observer<f64> for Watcher<'_> {
         }
         self.last = *state;
     }
+
+    fn accumulation(&mut self, tail: &Accumulation<f64>) {
+        self.peaks.accumulation(tail);
+        self.other.accumulation(tail);
+    }
 }
 
 impl Shake {
@@ -172,6 +178,9 @@ impl Shake {
             }
             fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
                 self.0.event(event, time, state);
+            }
+            fn accumulation(&mut self, tail: &Accumulation<f64>) {
+                self.0.accumulation(tail);
             }
         }
         let system = self.structure.resolve().unwrap();

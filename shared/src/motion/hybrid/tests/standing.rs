@@ -318,10 +318,28 @@ fn a_push_that_ends_at_the_threshold_moves_nothing() {
                     wave.terms[0].phase = core::f64::consts::FRAC_PI_2;
                     wave.terms[0].amplitude *= 1.0 + rounding * f64::EPSILON;
                     let seen = shake.machine(&drivetrain, &tight());
-                    assert!(seen.peak < 1e-14, "{geometry:?} {degrees} {frequency} {name}: {}", seen.peak);
-                    assert!(seen.events.len() < 100, "{geometry:?} {degrees} {frequency} {name}: {}", seen.events.len());
+                    let uplifts = seen.events.iter().any(|(event, _)| *event == Event::Uplift);
+                    let case = std::format!("{geometry:?} {degrees} {frequency} {name} {rounding}: {:?}", seen.events);
+                    assert_eq!((uplifts, seen.peak, seen.acceleration), (false, 0.0, 0.0), "{case}");
+                    assert!(seen.events.len() < 100, "{case}");
                 }
             }
         }
+    }
+}
+
+/// A sine that exceeds the threshold by a share of e lifts the block as it does so, where sin ωt = 1/(1 + e), however flat it is there.
+#[test]
+fn a_push_that_ends_above_the_threshold_lifts_in_time() {
+    let block = structure(Geometry::Full, 10.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let p = block.block.frequency_parameter();
+    for excess in [1e-12, 1e-9, 1e-6] {
+        let seen = shake(block, 1.0 + excess, 1.0)
+            .machine(&Drivetrain { engagement: Engagement::Rigid, ..Drivetrain::default() }, &tight());
+        let found = p * seen.events.iter().find(|(event, _)| *event == Event::Uplift).unwrap().1;
+        let expected = math::asin(1.0 / (1.0 + excess));
+        // Rounding of the push over its slope there.
+        let resolved = 256.0 * f64::EPSILON / math::square_root(2.0 * excess);
+        assert!((found - expected).abs() < resolved, "{excess}: {found} for {expected}");
     }
 }
