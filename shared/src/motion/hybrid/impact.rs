@@ -85,12 +85,20 @@ impl<S: Real> HybridSystem<S> {
         terminals.support.abs() < S::of(SLOW) * rack.abs()
     }
 
-    /// Flywheels that stay locked to the rack through swings too short for what delays their clutches, which are as in `device` before them; none
-    /// where clutches follow every swing.
-    fn stuck(&self, device: &DeviceState<S>) -> Option<u32> {
+    /// Flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
+    /// or where swings are too short for what delays their clutches, which are as in `device` before them; none where clutches follow every swing.
+    fn stuck(&self, standing: &DeviceState<S>, device: &DeviceState<S>) -> Option<u32> {
         let Actuator { engagement_delay, release_delay, dwell, controlled, .. } = self.actuator;
         let delayed = engagement_delay.larger(release_delay).larger(dwell) > S::ZERO;
-        if !self.transmission.traits().commanded || controlled || !delayed {
+        if !self.transmission.traits().commanded {
+            return None;
+        }
+        // Swings that are summed end in the piece that is followed, before its next command.
+        if controlled {
+            return Some(standing.locked());
+        }
+        // Only clutches that lock: plates give way.
+        if !delayed || self.plates().is_finite() {
             return None;
         }
         let stays = |wheel: &FlywheelState<S>| match wheel.coupling {
@@ -99,6 +107,11 @@ impl<S: Real> HybridSystem<S> {
             _ => engagement_delay.larger(wheel.dwell) <= S::ZERO,
         };
         Some(device.wheels.iter().map(|wheel| u32::from(stays(wheel))).sum())
+    }
+
+    /// Capacity of plates as they meet; infinite of clutches that lock.
+    fn plates(&self) -> S {
+        self.transmission.parameters.capacity_of(&FlywheelState::default()).0
     }
 
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]), before which the
@@ -110,9 +123,9 @@ impl<S: Real> HybridSystem<S> {
         let traits = self.transmission.traits();
         // There clutches stay as they are while such a block is on one side.
         let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
-        let plates = self.transmission.parameters.capacity_of(&FlywheelState::default()).0;
-        // Only clutches that lock: plates and springs give way.
-        let stuck = self.stuck(device).filter(|_| !plates.is_finite() && !traits.springs && !carried);
+        let plates = self.plates();
+        // Springs give way.
+        let stuck = self.stuck(&standing.device, device).filter(|_| !traits.springs && !carried);
         let rates = |side: Sign| {
             let configuration = self.body.configuration(side.unit(), S::ZERO);
             let arm = self.body.arm(&configuration);
@@ -134,13 +147,13 @@ impl<S: Real> HybridSystem<S> {
                 };
                 let inertance = engaged * inertance;
                 let locked = rate(inertance, inertance * bearing_dry);
-                if inward {
-                    // Plates pass no more than they can as they meet.
-                    let slips = if engaged > S::ZERO { rate(S::ZERO, engaged * plates) } else { locked };
-                    locked.larger(slips).larger(S::ZERO)
+                // Plates pass no more than they can as they meet; outward they push the block.
+                let slips = if engaged > S::ZERO && plates.is_finite() {
+                    rate(S::ZERO, engaged * if inward { plates } else { -plates })
                 } else {
-                    locked.larger(S::EPSILON * S::EPSILON)
-                }
+                    locked
+                };
+                locked.larger(slips).larger(if inward { S::ZERO } else { S::EPSILON * S::EPSILON })
             };
             // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
             (over(false, -load_friction).larger(over(false, load_friction)), over(true, load_friction))

@@ -11,8 +11,10 @@ use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
+use crate::structure::Structure;
 use crate::structure::block::{GRAVITY, Geometry};
 use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses};
+use crate::structure::restitution::Restitution;
 
 fn with(actuation: Actuation) -> Drivetrain {
     Drivetrain { actuation, ..Drivetrain::default() }
@@ -58,6 +60,48 @@ fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
         watcher.peaks.origin += until;
     }
     (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
+}
+
+/// The last bounces of a block with n flywheels that a controller holds, whichever way it moves: at a = p² sin α/(1 + n k cos² α) each lasts 2 v/a
+/// and the next one starts at η v, 2 η v/((1 − η) a) in all after a first impact at v.
+#[test]
+fn bounces_have_the_clutches_that_a_controller_holds() {
+    let mut structure = pair(Geometry::Full, 1.0, 1.0).structure;
+    structure.rest_speed = 1e-4;
+    let (p2, alpha) = (structure.block.frequency_parameter_squared(), structure.block.slenderness());
+    let k = structure.device.mass_ratio / structure.block.inertia_ratio();
+    let (sine, cosine) = crate::math::sin_cos(alpha);
+    for (engagement, restitution) in [
+        (Engagement::Ideal, Restitution::Constant(0.85)),
+        (Engagement::Rigid, Restitution::Constant(0.85)),
+        (Engagement::Rigid, Restitution::MomentumBalance),
+    ] {
+        let drivetrain = Drivetrain { engagement, ..Drivetrain::default() };
+        let mut machine: HybridSystem<f64> = drivetrain.resolve(&Structure { restitution, ..structure }, false).unwrap();
+        machine.actuator.controlled = true;
+        for (engaged, count) in [([false, false], 0), ([true, false], 1), ([false, true], 1), ([true, true], 2)] {
+            for side in [1.0, -1.0] {
+                let height = machine.rest_speed * machine.rest_speed / (2.0 * p2 * sine);
+                let mut state = machine.released_at(side * height, 0.0, [0.0; 3]);
+                machine.order(&mut state, engaged, &mut ());
+                let mut nobody = ();
+                let mut watcher = Watcher::new(&mut nobody);
+                let limits = Limits { overturned: 1.0, events: 10_000 };
+                machine.advance(&tight(), &mut state, Shaking::level(&Harmonics::QUIET), 0.1, &limits, &mut watcher).unwrap();
+                let case = std::format!("{engagement:?} {restitution:?} {engaged:?} {side}: {:?}", watcher.events);
+                let impacts = watcher.events.iter().filter(|(event, _)| *event == Event::Impact).count();
+                assert!(impacts == 1 && watcher.switches.is_empty(), "{case}");
+                let rate = p2 * sine / (1.0 + f64::from(count) * k * cosine * cosine);
+                let fall = crate::math::square_root(2.0 * height / rate);
+                let eta = machine.restitution[count as usize];
+                let rest = fall + 2.0 * eta * fall / (1.0 - eta);
+                let found = watcher.peaks.ended.unwrap();
+                assert!((found / rest - 1.0).abs() < 1e-6, "{found} for {rest}, {case}");
+                let largest = watcher.peaks.acceleration;
+                assert!((largest / rate - 1.0).abs() < 1e-6, "{largest} for {rate}, {case}");
+            }
+        }
+    }
 }
 
 /// A coil never moves for a command that is shorter than its delay; what comes over a line arrives as it was sent, each with its delay.
