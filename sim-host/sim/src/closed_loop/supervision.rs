@@ -33,8 +33,8 @@ const RINGING: f64 = std::f64::consts::PI;
 /// Longest time for which a monitor may wait, s.
 const LONGEST_WAIT: f32 = 10.0;
 
-/// Largest allowance of a monitor for late readings, s.
-const LATEST: f32 = 1.0;
+/// Largest allowance of a monitor for late readings, and its longest window, s.
+const LATEST: f64 = 1.0;
 
 /// Time between readings of `sensor` that its noise makes independent, s; new ones are `between` (s) apart.
 fn independent(sensor: &Inertial, between: f64) -> f64 {
@@ -89,9 +89,19 @@ pub fn supervision(
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap_or(0.0);
     let counts = lever * block.size() / encoder.resolution;
     let [ringing, ..] = block_accelerometer.sampling.delays(block_accelerometer.bandwidth);
-    let gyroscope_delay = delay(gyroscope.bandwidth, &gyroscope.sampling);
-    // 0 of one that is read at once; a reading is held for as long, whoever keeps the clock.
-    let encoder_delay = delay(0.0, &Sampling { synchronous: false, ..encoder.sampling });
+    // A reading is held for as long, whoever keeps the clock.
+    let mean_age = |bandwidth: f64, sampling: &Sampling| delay(bandwidth, &Sampling { synchronous: false, ..*sampling });
+    let gyroscope_delay = mean_age(gyroscope.bandwidth, &gyroscope.sampling);
+    // At its oldest; 0 of one that is read at once.
+    let encoder_delay = 2.0 * mean_age(0.0, &encoder.sampling);
+    // At either end of a window a count may be as old as that.
+    let sensor_delay = (2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay).min(LATEST);
+    // So long that a window has seen how fast that moved which a reading brings.
+    let window = gyroscope_delay.max(between_readings(&gyroscope.sampling, period)).max(encoder_delay).min(LATEST);
+    let settled = |sensor: &Inertial| {
+        let [ringing, _, latency] = sensor.sampling.delays(sensor.bandwidth);
+        RINGING * ringing + between_readings(&sensor.sampling, period) + latency
+    };
     Parameters {
         period: period as f32,
         monitor: MonitorParameters {
@@ -109,11 +119,20 @@ pub fn supervision(
                 counts_per_radian: if counts <= 1e9 { counts as f32 } else { 0.0 },
                 travel: 0,
             },
-            contradiction_time: larger(monitor.contradiction_time, 8.0 * period),
-            slow_contradiction_time: larger(monitor.slow_contradiction_time, 64.0 * period),
+            contradiction_time: larger(monitor.contradiction_time, window.max(8.0 * period)),
+            // Several times what is allowed for late readings, or nothing would be found.
+            slow_contradiction_time: larger(
+                monitor.slow_contradiction_time,
+                (64.0 * period).max((4.0 * sensor_delay).min(LATEST)),
+            ),
+            // For so long one accelerometer may show what the other does not yet, or no longer.
+            rest_contradiction_time: larger(
+                monitor.rest_contradiction_time,
+                settled(block_accelerometer) + settled(ground_accelerometer),
+            ),
             rest_tolerance: larger(monitor.rest_tolerance, PEAK * noise(block_accelerometer).max(noise(ground_accelerometer))),
             rate_tolerance: larger(monitor.rate_tolerance, PEAK * noise(gyroscope)),
-            sensor_delay: larger(monitor.sensor_delay, 2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay).min(LATEST),
+            sensor_delay: larger(monitor.sensor_delay, sensor_delay),
             moving_rate: larger(monitor.moving_rate, PEAK * noise(gyroscope)),
             gravity: GRAVITY as f32,
             ..monitor
@@ -142,6 +161,8 @@ pub fn supervision(
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::super::LoopScene;
     use super::super::disturbance::Disturbance;
     use super::super::failing::{Failing, Injected, Part};
@@ -149,7 +170,7 @@ mod tests {
     use super::*;
     use crate::interrupt::Interrupt;
     use crate::scene::Scene;
-    use crate::sensor::preset::{ACCELEROMETERS, GYROSCOPES};
+    use crate::sensor::preset::{self, ACCELEROMETERS, GYROSCOPES, SUITES};
 
     /// A loop over a pulse with `sensors`, tables of TOML.
     fn desk(sensors: &str) -> LoopScene {
@@ -221,11 +242,13 @@ mod tests {
         let ideal = monitor("encoder = { resolution_m = 1e-6 }");
         close(ideal.encoder.stale_time, 0.003);
         close(ideal.sensor_delay, 0.002);
-        // Three readings missed and the latency; half a period and the latency, twice, after two ticks of the gyroscope.
+        // Three readings missed and the latency; a period and twice the latency, at either end, after two ticks of the gyroscope.
         for synchronous in [false, true] {
             let slow = monitor(&format!("encoder = {{ rate_hz = 250, synchronous = {synchronous}, latency_s = 0.002 }}"));
             close(slow.encoder.stale_time, 0.014);
-            close(slow.sensor_delay, 0.001 + 0.004 + 0.004);
+            close(slow.sensor_delay, 0.001 + 2.0 * (0.004 + 2.0 * 0.002));
+            close(slow.contradiction_time, 0.004 + 2.0 * 0.002);
+            close(slow.slow_contradiction_time, 4.0 * 0.017);
         }
         // The slowest and latest that a scene may have.
         assert!(
@@ -240,6 +263,46 @@ mod tests {
     fn a_slow_or_late_encoder_is_no_fault() {
         for encoder in ["rate_hz = 250", "rate_hz = 1000, latency_s = 0.01"] {
             assert_eq!(faults(&desk(&format!("suite = 'adis16470', encoder = {{ {encoder} }}")), 1), 0, "{encoder}");
+        }
+        // One that keeps its count is found all the same.
+        for encoder in ["rate_hz = 30", "rate_hz = 10, synchronous = true"] {
+            let desk = desk(&format!("suite = 'adis16470', encoder = {{ {encoder} }}"));
+            assert!(faults_with(&desk, 1, &mut Injected::new(Failing::Stuck(Part::Encoder), 0.5)) > 0, "{encoder}");
+        }
+    }
+
+    /// Others tell of a motion, and of its end, long before them.
+    #[test]
+    fn the_slowest_sensors_are_no_fault() {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/controller.toml");
+        for sensor in [
+            "encoder = { rate_hz = 2, synchronous = true }",
+            "encoder = { rate_hz = 4, synchronous = true }",
+            "encoder = { rate_hz = 8, synchronous = true, latency_s = 0.1 }",
+            "encoder = { rate_hz = 6, synchronous = false }",
+            "encoder = { rate_hz = 50, synchronous = true }",
+            "gyroscope = { rate_hz = 6, synchronous = true }",
+            "gyroscope = { rate_hz = 6, synchronous = false }",
+            "gyroscope = { bandwidth_hz = 2.3 }",
+            "block_accelerometer = { bandwidth_hz = 0.1 }",
+            "block_accelerometer = { bandwidth_hz = 1 }",
+            "block_accelerometer = { rate_hz = 1, synchronous = true }",
+            "ground_accelerometer = { bandwidth_hz = 2.3 }",
+            "ground_accelerometer = { rate_hz = 1, synchronous = true }",
+        ] {
+            let scene = Scene::load(&scene, &[format!("controller.sensors.{sensor}")]).unwrap();
+            assert_eq!(faults(&LoopScene::new(scene).unwrap(), 1), 0, "{sensor}");
+        }
+    }
+
+    #[test]
+    fn windows_of_sensors_as_they_are_sold_are_the_default_ones() {
+        let windows = |monitor: MonitorParameters| {
+            [monitor.contradiction_time, monitor.slow_contradiction_time, monitor.rest_contradiction_time]
+        };
+        for suite in preset::names(SUITES) {
+            let sold = windows(monitor(&format!("suite = '{suite}'")));
+            assert_eq!(sold, windows(MonitorParameters::default()), "{suite}");
         }
     }
 
