@@ -44,34 +44,40 @@ impl Run for PlanArguments {
         let parts = self.parts.unwrap_or(wanted.clamp(1.0, f64::from(MOST_SHARDS)) as u32);
         let here = std::env::current_dir().context("the working folder")?;
         let division = Division::new(rows.origin, parts, here, self.command.clone());
+        let script = self.slurm.then(|| slurm(&division, &self.folder, rows.name)).transpose()?;
         division.write(&self.folder)?;
-        if self.slurm {
-            context.print(slurm(&division, &self.folder, rows.name));
-        } else {
-            let (key, rows) = (&division.key, division.origin.rows);
-            context.print(format_args!("{parts} parts of {rows} rows, key {key}\n"));
-        }
+        let (key, rows) = (&division.key, division.origin.rows);
+        context.print(script.unwrap_or_else(|| format!("{parts} parts of {rows} rows, key {key}\n")));
         Ok(Completion::Complete)
     }
 }
 
 /// A script for Slurm's `sbatch`. A part that is there already is done at once, so that it may be sent again as a whole.
-fn slurm(division: &Division, folder: &Path, name: &str) -> String {
-    let (parts, here) = (division.parts, for_slurm(&division.working_folder.display().to_string()));
+///
+/// # Errors
+/// A path that no line of `#SBATCH` can have.
+fn slurm(division: &Division, folder: &Path, name: &str) -> anyhow::Result<String> {
+    let logs = division.working_folder.join(folder);
+    let [here, logs] = [&division.working_folder, &logs].map(|path| path.display().to_string());
+    // A backslash keeps Slurm from filling in numbers of parts, so that all of them would write to one log.
+    if let Some(path) = [&here, &logs].into_iter().find(|path| path.contains(['\\', '\n'])) {
+        anyhow::bail!(
+            "--slurm: a folder is {path:?}, but must be one without backslashes and line breaks, which Slurm reads otherwise"
+        );
+    }
     // In names of logs % begins what Slurm fills in, also in the folder that it puts before a relative one.
-    let logs = division.working_folder.join(folder).display().to_string();
-    let log = for_slurm(&(logs.replace('%', "%%") + "/part-%a.log"));
-    let folder = folder.display().to_string().replace('\'', r"'\''");
-    format!(
+    let (parts, log) = (division.parts, for_slurm(&(logs.replace('%', "%%") + "/part-%a.log")));
+    let (here, folder) = (for_slurm(&here), folder.display().to_string().replace('\'', r"'\''"));
+    Ok(format!(
         "#!/bin/sh\n#SBATCH --job-name=sprag-{name}\n#SBATCH --array=1-{parts}\n#SBATCH --chdir={here}\n\
          #SBATCH --output={log}\n#SBATCH --requeue\n\
          exec sprag part '{folder}' \"$SLURM_ARRAY_TASK_ID\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n"
-    )
+    ))
 }
 
-/// A word of a line of `#SBATCH`, in which a backslash takes their meaning from quotes, and from itself.
+/// A word of a line of `#SBATCH`, in which a backslash takes their meaning from quotes.
 fn for_slurm(word: &str) -> String {
-    format!("\"{}\"", word.replace('\\', r"\\").replace('"', r#"\""#))
+    format!("\"{}\"", word.replace('"', r#"\""#))
 }
 
 #[cfg(test)]
@@ -83,15 +89,29 @@ mod tests {
 
     use super::*;
 
+    /// The script of a plan of three parts that is made `here`.
+    fn script(here: &str, folder: &str) -> anyhow::Result<String> {
+        let origin = Origin::new(Subject::new("map", BTreeMap::new()), 12);
+        slurm(&Division::new(origin, 3, PathBuf::from(here), Vec::new()), Path::new(folder), "map")
+    }
+
     #[test]
     fn paths_reach_slurm_and_the_shell_as_they_are() {
-        let origin = Origin::new(Subject::new("map", BTreeMap::new()), 12);
-        let division = Division::new(origin, 3, PathBuf::from(r#"/home/O'Hara "x" #1%"#), Vec::new());
-        let script = slurm(&division, Path::new("Ann's 50 %a"), "map");
+        let script = script(r#"/home/O'Hara "x" #1%"#, "Ann's 50 %a").unwrap();
         let lines: Vec<&str> = script.lines().collect();
         assert!(lines.contains(&r##"#SBATCH --chdir="/home/O'Hara \"x\" #1%""##), "{script}");
         let log = r##"#SBATCH --output="/home/O'Hara \"x\" #1%%/Ann's 50 %%a/part-%a.log""##;
         assert!(lines.contains(&log), "{script}");
         assert!(lines.last().unwrap().starts_with(r#"exec sprag part 'Ann'\''s 50 %a' "$SLURM"#), "{script}");
+    }
+
+    #[test]
+    fn a_path_that_slurm_would_read_otherwise_is_refused() {
+        for (here, folder, named) in
+            [("/home", r"a\b", r#""/home/a\\b""#), (r"/home\x", "parts", r#""/home\\x""#), ("/home", "a\nb", r#""/home/a\nb""#)]
+        {
+            let refused = script(here, folder).unwrap_err().to_string();
+            assert!(refused.starts_with(&format!("--slurm: a folder is {named}, but must be")), "{refused}");
+        }
     }
 }
