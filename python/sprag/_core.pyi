@@ -169,6 +169,19 @@ class Situation:
     def frequency_parameter_1_s(self) -> float: ...
     @property
     def uplift_threshold_g(self) -> float: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    @staticmethod
+    def _restored(
+        motion: Sequence[float],
+        ground: Sequence[float],
+        standing: bool,
+        signs: Sequence[int],
+        engaged: tuple[bool, bool],
+        spins_1_s: tuple[float, float],
+        model: Sequence[float],
+    ) -> Situation: ...
 
 _Floats = npt.NDArray[np.float64]
 

@@ -14,6 +14,7 @@ use crate::value::is_bool;
 ///
 /// The motion is that at the instant at which a command given now takes effect, or that of now for a law that does not predict.
 #[pyclass(frozen, get_all, module = "sprag")]
+#[derive(PartialEq)]
 pub struct Situation {
     /// θ, rad.
     rotation_rad: f32,
@@ -76,6 +77,79 @@ impl From<&SharedSituation<'_>> for Situation {
         }
     }
 }
+
+#[pymethods]
+impl Situation {
+    fn __eq__(&self, other: &Situation) -> bool {
+        self == other
+    }
+
+    fn __hash__(&self) -> u64 {
+        // A negative zero is equal to a positive one.
+        let [rotation, velocity] = [self.rotation_rad, self.velocity_rad_s].map(|number| u64::from((number + 0.0).to_bits()));
+        rotation ^ velocity.rotate_left(32)
+    }
+
+    fn __repr__(&self) -> String {
+        let Situation { rotation_rad, velocity_rad_s, push_1_s2, ground_g, .. } = self;
+        format!(
+            "<Situation: rotation_rad={rotation_rad:?}, velocity_rad_s={velocity_rad_s:?}, push_1_s2={push_1_s2:?}, ground_g={ground_g:?}>"
+        )
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Pickled)> {
+        let at = slf.get();
+        let state = (
+            [at.rotation_rad, at.velocity_rad_s, at.push_1_s2],
+            [at.ground_g, at.ground_vertical_g, at.ground_rate_g_s, at.ground_drift],
+            at.standing,
+            [at.rotation_sign, at.velocity_sign, at.push_sign, at.ground_sign],
+            at.engaged,
+            at.spins_1_s,
+            [at.slenderness_rad, at.frequency_parameter_1_s, at.uplift_threshold_g],
+        );
+        Ok((slf.get_type().getattr("_restored")?, state))
+    }
+
+    /// What was pickled.
+    #[staticmethod]
+    fn _restored(
+        motion: [f32; 3],
+        ground: [f32; 4],
+        standing: bool,
+        signs: [i8; 4],
+        engaged: (bool, bool),
+        spins_1_s: (f32, f32),
+        model: [f32; 3],
+    ) -> Situation {
+        let [rotation_rad, velocity_rad_s, push_1_s2] = motion;
+        let [ground_g, ground_vertical_g, ground_rate_g_s, ground_drift] = ground;
+        let [rotation_sign, velocity_sign, push_sign, ground_sign] = signs;
+        let [slenderness_rad, frequency_parameter_1_s, uplift_threshold_g] = model;
+        Situation {
+            rotation_rad,
+            velocity_rad_s,
+            push_1_s2,
+            ground_g,
+            ground_vertical_g,
+            ground_rate_g_s,
+            ground_drift,
+            standing,
+            rotation_sign,
+            velocity_sign,
+            push_sign,
+            ground_sign,
+            engaged,
+            spins_1_s,
+            slenderness_rad,
+            frequency_parameter_1_s,
+            uplift_threshold_g,
+        }
+    }
+}
+
+/// The state of a pickled situation.
+type Pickled = ([f32; 3], [f32; 4], bool, [i8; 4], (bool, bool), (f32, f32), [f32; 3]);
 
 /// A function of Python as a clutch law. What it raises ends the loop.
 #[derive(Clone)]

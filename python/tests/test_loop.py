@@ -78,6 +78,25 @@ def test_what_a_law_raises_ends_the_loop(scene: sprag.Scene) -> None:
         sprag.closed_loop(scene, law=lambda: True)
 
 
+def test_situations_compare_hash_print_and_pickle(scene: sprag.Scene) -> None:
+    seen: list[sprag.Situation] = []
+
+    def watched(at: sprag.Situation) -> bool:
+        seen.append(at)
+        return resisting(at)
+
+    sprag.closed_loop(scene, law=watched)
+    first, moving = seen[0], max(seen, key=lambda at: abs(at.rotation_rad))
+    copy = pickle.loads(pickle.dumps(moving))
+    assert copy == moving != first
+    assert hash(copy) == hash(moving) != hash(first)
+    assert repr(copy) == repr(moving)
+    assert str(np.float32(moving.rotation_rad)) in repr(moving)
+    names = [name for name in dir(moving) if not name.startswith("_")]
+    assert [getattr(copy, name) for name in names] == [getattr(moving, name) for name in names]
+    assert len(names) == 17
+
+
 def test_seeds_are_other_specimens(scene: sprag.Scene) -> None:
     first, second = sprag.closed_loop(scene, seed=1), sprag.closed_loop(scene, seed=2)
     assert not np.array_equal(first.columns["gyroscope_rad_s"], second.columns["gyroscope_rad_s"])
