@@ -232,7 +232,7 @@ fn parquet_results_are_replaced_by_those_of_the_same_cases() {
 /// What `child` leaves that is told to end; its input stays open until it has.
 #[cfg(unix)]
 fn terminated(mut child: Child) -> Output {
-    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    super::terminal::signal("-TERM", child.id());
     let input = child.stdin.take();
     let ended = child.wait_with_output().unwrap();
     drop(input);

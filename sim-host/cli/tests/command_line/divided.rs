@@ -108,7 +108,7 @@ fn an_interrupted_part_is_not_there() {
         std::thread::sleep(Duration::from_millis(1));
     }
     grown(&here.join("parts").join(scratch().unwrap()), ["map-2-of-2.csv.unfinished", "map-2-of-2.csv"]);
-    assert!(Command::new("kill").args(["-INT", &process.id().to_string()]).status().unwrap().success());
+    super::terminal::signal("-INT", process.id());
     let ended = process.wait_with_output().unwrap();
     assert_eq!(ended.status.code(), Some(130));
     let words = "sprag: interrupted; part 2 is not there; the same command makes it\n";

@@ -93,8 +93,7 @@ fn control_c_leaves_what_is_finished() {
     let large = ["--set", "map.x.cells=3000", "--set", "map.y.cells=3000", "--set", "ground.0.motion=\"half-sine\""];
     let process = map(&folder, &large).stderr(Stdio::piped()).spawn().unwrap();
     begun(&folder);
-    let sent = Command::new("kill").args(["-INT", &process.id().to_string()]).status().unwrap();
-    assert!(sent.success());
+    super::terminal::signal("-INT", process.id());
     let ended = process.wait_with_output().unwrap();
     assert_eq!(ended.status.code(), Some(130));
     assert!(said(&ended).contains("of 27000000 rows are kept; the same command with --resume continues"), "{}", said(&ended));

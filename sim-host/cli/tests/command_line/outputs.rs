@@ -302,7 +302,7 @@ fn a_restart_does_not_touch_the_rows_of_a_running_process() {
     let slow = [&SLOW[..], &["--formats", "csv,svg"]].concat();
     well(map(&whole, &slow).output().unwrap());
     let signal = |name: &str, id: u32| {
-        assert!(Command::new("kill").args([name, &id.to_string()]).status().unwrap().success());
+        super::terminal::signal(name, id);
         // Every thread has stopped before the rows are read.
         let stopped = |task: &Path| fs::read_to_string(task).map_or(true, |stat| stat.contains(") T ") || stat.contains(") Z "));
         let tasks = || fs::read_dir(format!("/proc/{id}/task")).into_iter().flatten().flatten();

@@ -71,7 +71,7 @@ impl Terminal {
     }
 
     fn terminate(&self) {
-        terminate(self.child.process_id().unwrap());
+        signal("-TERM", self.child.process_id().unwrap());
     }
 
     /// The exit code, and all that was shown.
@@ -84,8 +84,8 @@ impl Terminal {
     }
 }
 
-fn terminate(process: u32) {
-    assert!(Command::new("kill").args(["-TERM", &process.to_string()]).status().unwrap().success());
+pub fn signal(name: &str, process: u32) {
+    assert!(Command::new("kill").args([name, &process.to_string()]).status().unwrap().success());
 }
 
 fn sprag(folder: &Path, columns: u16, arguments: &[&str]) -> Terminal {
@@ -383,7 +383,7 @@ fn what_is_kept_is_said_even_by_work_that_does_not_look() {
     let process = command.current_dir(&folder).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
     // There is no other end before it reads, and nothing to be read.
     let _other_end = std::fs::OpenOptions::new().write(true).open(&pipe).unwrap();
-    terminate(process.id());
+    signal("-TERM", process.id());
     let ended = process.wait_with_output().unwrap();
     assert_eq!(ended.status.code(), Some(143), "{}", said(&ended));
     assert!(said(&ended).ends_with("sprag: interrupted; nothing was written\n"), "{}", said(&ended));
