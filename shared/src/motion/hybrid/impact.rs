@@ -55,13 +55,14 @@ impl<S: Real> HybridSystem<S> {
         if velocity.abs() > self.rest_speed {
             return time;
         }
-        let standing = self.standing(state, time, &mut ());
+        let mut standing = self.standing(state, time, &mut ());
+        let carried = self.support_goes(&mut standing);
         if self.uplifting(&standing, state.ground) > S::ZERO || self.swings(&standing) {
             self.stay_on_base(state, time, observer);
             return time;
         }
         let negligible = velocity.abs() <= self.rest_speed * S::EPSILON;
-        if !negligible && self.moves_its_clutches(&standing, velocity) {
+        if !negligible && carried && self.moves_its_clutches(&standing, velocity) {
             return time;
         }
         let tail = self.accumulation(&standing, &state.device, velocity.abs());
@@ -78,7 +79,7 @@ impl<S: Real> HybridSystem<S> {
         ends
     }
 
-    /// On a support of its own motion: whether a block that leaves its base at `velocity` is fast enough to switch clutches.
+    /// On a support that moves otherwise than the ground: whether a block that leaves its base at `velocity` is fast enough to switch clutches.
     fn moves_its_clutches(&self, standing: &HybridState<S>, velocity: S) -> bool {
         let Some(terminals) = standing.device.terminals.filter(|_| self.transmission.traits().commanded) else { return false };
         let rack = self.body.to_terminal(&self.body.configuration(standing.motion.side.unit(), S::ZERO), velocity);

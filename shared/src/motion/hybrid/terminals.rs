@@ -54,6 +54,17 @@ impl<S: Real> HybridSystem<S> {
         }
     }
 
+    /// Whether the support of a block that hits its base moves, or begins to. Where it does not, the rounding that is left of its speed is gone.
+    pub(super) fn support_goes(&self, standing: &mut HybridState<S>) -> bool {
+        let [ground, support] = self.transmission.parameters.support_rates();
+        let accelerates = ground * standing.ground[0] + support * standing.ground[2] != S::ZERO;
+        let Some(terminals) = &mut standing.device.terminals else { return false };
+        if !accelerates && terminals.support.abs() <= S::of(ROUNDINGS) * S::EPSILON * self.speed {
+            terminals.support = S::ZERO;
+        }
+        accelerates || terminals.support != S::ZERO
+    }
+
     /// Commands of Eq. 10 to the clutches of a standing block, whose terminals move with the support alone. Returns until when its speed and
     /// acceleration keep their signs; `to` where it moves with the ground.
     pub(super) fn drive_at_rest(

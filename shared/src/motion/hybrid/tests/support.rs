@@ -9,11 +9,13 @@ use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
+use crate::observers::peaks::Peaks;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use crate::structure::error::ParameterError;
 use crate::structure::mount::Mount;
+use crate::structure::restitution::Restitution;
 
 const SIGMA: f64 = 0.5;
 
@@ -157,5 +159,31 @@ fn on_quiet_ground_it_is_nothing() {
         });
         assert!((moved.rotation / plain.rotation - 1.0).abs() < 1e-12, "{kind:?}: {} and {}", moved.rotation, plain.rotation);
         assert_eq!(moved.impacts, plain.impacts);
+    }
+}
+
+/// There the last bounces are those on the ground, however many they are. So they are on ground that has come to rest, but for rounding of the
+/// support's speed.
+#[test]
+fn the_last_bounces_on_a_still_support_are_those_on_the_ground() {
+    for geometry in [Geometry::Slender, Geometry::Full] {
+        let mut structure = structure(geometry, 10.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);
+        structure.restitution = Restitution::Constant(0.98);
+        let [moved, plain] = [on(1.2), Drivetrain::default()].map(|drivetrain| {
+            let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+            let mut state = machine.released_at(0.3 * structure.block.slenderness(), 0.0, [0.0; 3]);
+            let (mut peaks, limits) = (Peaks::default(), Limits { overturned: 1.5, events: 100_000 });
+            let shaking = Shaking::level(&Harmonics::QUIET);
+            machine.advance(&tight(), &mut state, shaking, 20.0, &limits, &mut peaks).unwrap();
+            assert_eq!(state.motion.phase, Phase::Rest);
+            (peaks.ended.unwrap(), state.motion.impacts)
+        });
+        assert!((moved.0 / plain.0 - 1.0).abs() < 1e-9, "{geometry:?}: {moved:?} {plain:?}");
+        assert_eq!(moved.1, plain.1, "{geometry:?}");
+        for f in [1.2, 0.7, -1.0] {
+            let mut pulse = shake(structure, 1.5, 4.0);
+            pulse.free_time = 20.0;
+            assert_eq!(pulse.machine(&on(f), &tight()).state.phase, Phase::Rest, "{geometry:?} f = {f}");
+        }
     }
 }
