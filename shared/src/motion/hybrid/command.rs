@@ -87,17 +87,7 @@ impl<S: Real> HybridSystem<S> {
                 self.ask(state, resists.then_some(way));
             }
             let (velocity, direction) = (state.motion.velocity, state.motion.direction);
-            let mut moved = false;
-            for index in 0..2 {
-                while state.device.wheels[index].pending == S::ZERO {
-                    moved = true;
-                    self.carry_out(state, index, time, observer);
-                    if state.device.wheels[index].pending == S::ZERO {
-                        // An infinite brake has the flywheel before it is engaged again.
-                        self.show_instant(state, time, observer);
-                    }
-                }
-            }
+            let moved = self.carry_out_due(state, time, observer);
             if state.motion.velocity == velocity {
                 if moved && self.transmission.traits().holds && velocity == S::ZERO {
                     // The bearings of a wheel that has just been engaged may hold the block, those of a released one let it go, and a
@@ -161,12 +151,7 @@ impl<S: Real> HybridSystem<S> {
 
     /// Commands to the clutches of a standing block that are due.
     pub(super) fn carry_out_at_rest(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
-        for index in 0..2 {
-            while state.device.wheels[index].pending == S::ZERO {
-                self.carry_out(state, index, time, observer);
-                state.motion.velocity = S::ZERO;
-            }
-        }
+        self.carry_out_due(state, time, observer);
         if self.swings(state) {
             self.stay_on_base(state, time, observer);
         }
@@ -212,6 +197,32 @@ impl<S: Real> HybridSystem<S> {
     /// Whether the command that is due is one to engage.
     fn due_command(&self, wheel: &FlywheelState<S>) -> bool {
         if self.actuator.transport { wheel.under_way.first() } else { wheel.commanded }
+    }
+
+    /// Carries out the commands that are due, releases before engagements, so that two clutches that change places are never both engaged; those to
+    /// one clutch in their order. Returns whether there were any.
+    fn carry_out_due(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) -> bool {
+        let is_due = |wheel: &FlywheelState<S>| wheel.pending == S::ZERO;
+        let mut any = false;
+        while state.device.wheels.iter().any(is_due) {
+            any = true;
+            for engage in [false, true] {
+                for index in 0..2 {
+                    let wheel = &state.device.wheels[index];
+                    if !is_due(wheel) || self.due_command(wheel) != engage {
+                        continue;
+                    }
+                    self.carry_out(state, index, time, observer);
+                    if state.motion.phase == Phase::Rest {
+                        state.motion.velocity = S::ZERO;
+                    } else if is_due(&state.device.wheels[index]) {
+                        // An infinite brake has the flywheel before it is engaged again.
+                        self.show_instant(state, time, observer);
+                    }
+                }
+            }
+        }
+        any
     }
 
     #[inline(never)]

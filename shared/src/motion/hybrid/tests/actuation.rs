@@ -104,6 +104,32 @@ fn bounces_have_the_clutches_that_a_controller_holds() {
     }
 }
 
+/// Where two rigid clutches change places at one instant, what is released has no part in the jolt: θ̇⁺ = θ̇⁻/(1 + k) from a flywheel that stands,
+/// whichever is the first.
+#[test]
+fn releases_come_before_engagements() {
+    let structure = pair(Geometry::Slender, 1.0, 1.0).structure;
+    let actuation = Actuation { engagement_delay: 0.01, release_delay: 0.01, ..Actuation::default() };
+    let rigid = Drivetrain { engagement: Engagement::Rigid, ..with(actuation) };
+    let mut machine: HybridSystem<f64> = rigid.resolve(&structure, false).unwrap();
+    machine.actuator.controlled = true;
+    let jolt = 1.0 + structure.device.mass_ratio / structure.block.inertia_ratio();
+    let shaking = Shaking::level(&Harmonics::QUIET);
+    let limits = pair(Geometry::Slender, 1.0, 1.0).limits(true);
+    for first in [[true, false], [false, true]] {
+        let mut state = machine.released_at(0.1, 0.0, [0.0; 3]);
+        let mut nobody = ();
+        let mut watcher = Watcher::new(&mut nobody);
+        for wanted in [first, first.map(|engaged| !engaged)] {
+            machine.order(&mut state, wanted, &mut watcher);
+            machine.advance(&tight(), &mut state, shaking, 0.02, &limits, &mut watcher).unwrap();
+        }
+        assert_eq!(watcher.switches.len(), 3);
+        let ((_, before, _), (_, _, after)) = (watcher.switches[1], watcher.switches[2]);
+        assert!((before.velocity / after.velocity / jolt - 1.0).abs() < 1e-12, "{first:?}: {before:?} {after:?}");
+    }
+}
+
 /// A coil never moves for a command that is shorter than its delay; what comes over a line arrives as it was sent, each with its delay.
 #[test]
 fn a_command_shorter_than_the_delay_is_lost_or_late() {
