@@ -9,6 +9,7 @@ use crate::equation::Model;
 use crate::ground::Ground;
 use crate::guard::Guard;
 use crate::ledger::Ledger;
+use crate::mode::{Link, State, wheel_for};
 use crate::runner::Runner;
 use crate::scatter::Scatter;
 use crate::scene::Scene;
@@ -72,9 +73,9 @@ pub fn run_with(scene: &Scene, index: usize, folder: &Path, effort: Effort) -> R
     // Nothing but friction holds a block any more that leans outward beyond its balance; springs pull at a full one.
     let state = runner.state();
     let balance = match (model.block.geometry, model.device.coupling) {
-        (Geometry::Slender, _) => model.block.slenderness + held(&model.block, &model.device) / GRAVITY,
+        (Geometry::Slender, _) => model.block.slenderness + stops(&model, state) / GRAVITY,
         (Geometry::Full, Coupling::Elastic { .. }) => f64::INFINITY,
-        (Geometry::Full, _) => model.block.slenderness + (held(&model.block, &model.device) / GRAVITY).atan(),
+        (Geometry::Full, _) => model.block.slenderness + (stops(&model, state) / GRAVITY).atan(),
     };
     let beyond = state.rotation().abs() > balance && state.rotation() * state.velocity() > 0.0;
     if run.outcome == "safe" && beyond {
@@ -100,10 +101,37 @@ fn point_of_no_return(block: &Block, device: &Device, (horizontal, vertical, sup
     block.slenderness * 3.0 + 1.5 * (pushed + held(block, device)) / lightest
 }
 
+/// Longest arm of the rack about a toe, over R.
+fn longest_arm(block: &Block, device: &Device) -> f64 {
+    (0..=64).map(|part| device.lever.at(1.0, block.slenderness * (1.0 - f64::from(part) / 16.0)).0.abs()).fold(0.0, f64::max)
+}
+
 /// Largest moment of all friction about a toe, as a horizontal acceleration.
 fn held(block: &Block, device: &Device) -> f64 {
-    let lever =
-        (0..=64).map(|part| device.lever.at(1.0, block.slenderness * (1.0 - f64::from(part) / 16.0)).0.abs()).fold(0.0, f64::max);
     let plates = if device.capacity.is_finite() { 2.0 * device.capacity } else { 0.0 };
-    lever * (device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates)
+    longest_arm(block, device) * (device.rack_dry + 2.0 * device.inertance * device.bearing_dry + plates)
+}
+
+/// That of the friction which may still stop a block that falls. A flywheel that is engaged, or about to be, brakes it by its bearings once it has
+/// the speed of the rack, as far as the plates pass that on; before that by the whole capacity, and on past a stop only if it turns the other way. A
+/// spring pulls with its whole capacity from either side.
+fn stops(model: &Model, state: &State) -> f64 {
+    let device = &model.device;
+    let falls = state.velocity().signum();
+    let bearings = device.inertance * device.bearing_dry * (1.0 + device.mesh);
+    let springs = matches!(device.coupling, Coupling::Elastic { .. });
+    let brakes = |i: usize| {
+        let wheel = &state.wheels[i];
+        let counts = match device.coupling {
+            Coupling::Overrunning => i == wheel_for(falls),
+            _ => wheel.link != Link::Open || wheel.command.due.is_some(),
+        };
+        let turns_back = wheel.link != Link::Locked && state.spin(i) * falls < 0.0;
+        match counts {
+            false => 0.0,
+            true if device.capacity.is_finite() && (springs || turns_back) => device.capacity,
+            true => bearings.min(device.capacity),
+        }
+    };
+    longest_arm(&model.block, device) * (device.rack_dry + brakes(0) + brakes(1))
 }

@@ -2,9 +2,11 @@
 //! as no guard, nor θ, nor θ̇, reaches zero and nothing is due, and hand the state back.
 
 use super::{HybridState, HybridSystem};
-use crate::drivetrain::clutch_state::{Coupling, GUARDS, ModeCoefficients};
+use crate::drivetrain::any_transmission::TransmissionKind;
+use crate::drivetrain::clutch_state::{Coupling, FlywheelState, GUARDS, ModeCoefficients};
 use crate::equation::any_body::AnyBody;
 use crate::equation::body::Body;
+use crate::equation::clutch_rule::wheel_for;
 use crate::math;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
@@ -71,15 +73,7 @@ impl<S: Real> HybridSystem<S> {
     /// and plates may hold the block beyond. A spring without a capacity counts for nothing.
     pub fn push_bound(&self, bound: f64, support: f64, lightest: f64) -> f64 {
         let parameters = &self.transmission.parameters;
-        let p2 = self.body.frequency_squared().to_f64();
-        let lever = match self.body {
-            AnyBody::Slender(body) => body.lever.to_f64(),
-            // Its longest.
-            AnyBody::Full(body) => {
-                let (along, across) = (body.lever.along.to_f64(), body.lever.across.to_f64());
-                math::square_root(along * along + across * across)
-            }
-        };
+        let (p2, lever) = (self.body.frequency_squared().to_f64(), self.longest_lever());
         let capacity = parameters.capacity.to_f64();
         let plates = if capacity.is_finite() { capacity } else { 0.0 };
         let bearing = parameters.inertance.to_f64() * parameters.bearing_dry.to_f64();
@@ -88,6 +82,37 @@ impl<S: Real> HybridSystem<S> {
         let (held, pushed) = (lever * dry / p2, lever * at_rack / p2);
         let by_support = 2.0 * lever * parameters.relative_push.to_f64().abs() / p2 * support;
         (bound * (1.0 + pushed) + by_support + held) / lightest
+    }
+
+    /// Largest lever of the rack about the toe, over R.
+    fn longest_lever(&self) -> f64 {
+        match self.body {
+            AnyBody::Slender(body) => body.lever.to_f64(),
+            AnyBody::Full(body) => {
+                let (along, across) = (body.lever.along.to_f64(), body.lever.across.to_f64());
+                math::square_root(along * along + across * across)
+            }
+        }
+    }
+
+    /// Largest dry friction at the rack (1/s²) that may stop the fall of `state`: that of the rack, and of each flywheel that is engaged, or about to be,
+    /// what holds once it sticks. Only one that turns against the fall brakes it with the capacity of its plates, and so does any behind a spring.
+    fn stopping_friction(&self, state: &HybridState<S>) -> S {
+        let parameters = &self.transmission.parameters;
+        let falls = state.motion.direction;
+        let one_way = self.transmission.kind == TransmissionKind::Overrunning;
+        let sticking =
+            parameters.capacity.smaller(parameters.inertance * parameters.bearing_dry * (S::ONE + parameters.load_friction));
+        let of = |(index, wheel): (usize, &FlywheelState<S>)| {
+            let holds = if one_way { index == wheel_for(falls) } else { wheel.coupling.is_engaged() || wheel.pending >= S::ZERO };
+            let against = wheel.coupling != Coupling::Locked && falls.times(wheel.spin) < S::ZERO;
+            match holds {
+                false => S::ZERO,
+                true if parameters.capacity.is_finite() && (against || self.transmission.traits().springs) => parameters.capacity,
+                true => sticking,
+            }
+        };
+        state.device.wheels.iter().enumerate().map(of).fold(parameters.rack_dry, |sum, friction| sum + friction)
     }
 
     /// Slender or full.
@@ -102,7 +127,7 @@ impl<S: Real> HybridSystem<S> {
     /// friction holds the block no more. Springs may bring a full block back from anywhere.
     pub fn end(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         if self.geometry() == Geometry::Slender || !self.transmission.traits().springs {
-            let bound = self.push_bound(0.0, 0.0, 1.0);
+            let bound = self.longest_lever() * (self.stopping_friction(state) / self.body.frequency_squared()).to_f64();
             let no_return = self.geometry().point_of_no_return(self.slenderness.to_f64(), bound);
             state.motion.end(S::of(no_return), time, observer);
         }

@@ -3,6 +3,7 @@
 mod actuation;
 mod demands;
 mod drag;
+mod end;
 mod energy;
 mod ground;
 mod limits;
