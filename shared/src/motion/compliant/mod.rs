@@ -166,7 +166,9 @@ impl<S: Real> CompliantSystem<S> {
             let velocity = stretch.state(stretch.length()).motion.velocity;
             state.motion.direction = Sign::of(velocity, state.motion.direction);
             (state.motion.side, state.motion.terminal_acceleration_sign) = (state.motion.direction, state.motion.direction);
-            self.settle(state, ground, *time, observer);
+            let push = self.balance(state, ground.at(*time)).push;
+            // A push that grows from zero has the sign of the motion.
+            self.command_seen(state, if push == S::ZERO { velocity } else { push }, *time, observer);
         }
         let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
         let guards = Guard::ALL.into_iter().filter(|_| look);
@@ -252,11 +254,12 @@ impl<S: Real> CompliantSystem<S> {
         }
     }
 
-    /// Eq. 10 with a `push` of the sign of the terminals' acceleration.
+    /// Eq. 10 with a `push` of the sign of the terminals' acceleration. Without a push a block that does not move wants nothing.
     fn command(&self, state: &mut CompliantState<S>, push: S) {
         let sign = Sign::of(push, state.motion.terminal_acceleration_sign);
         (state.motion.acceleration_sign, state.motion.terminal_acceleration_sign) = (sign, sign);
-        state.engaged = self.clutch.engages(state.motion.direction, sign);
+        let still = push == S::ZERO && state.motion.velocity == S::ZERO;
+        state.engaged = self.clutch.engages(state.motion.direction, sign) && !(still && self.clutch.follows_signs());
     }
 }
 

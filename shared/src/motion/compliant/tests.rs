@@ -225,6 +225,20 @@ fn the_mirrored_ground_gives_the_mirrored_motion() {
     }
 }
 
+/// Before anything moves Eq. 10 wants nothing. So a jump of the ground engages a clutch at once, to either side.
+#[test]
+fn what_stands_still_wants_no_clutch() {
+    let (system, step) = system(device(DeviceKind::ClutchedPair, KinematicsKind::Paper), 10.0, 0.3);
+    let [one, other] = [0.15, -0.15].map(|push| {
+        let mut state = system.at_rest();
+        let quiet = follow(&system, &mut state, &[(still(), None, 0.5)], step);
+        assert!(!state.engaged && quiet.events.is_empty(), "{state:?} {:?}", quiet.events);
+        follow(&system, &mut state, &[(AnySegment::Linear(Linear::constant(push)), None, 0.5)], step).events
+    });
+    assert_eq!(one, other);
+    assert_eq!(one[0], (Event::Switch, 0.0));
+}
+
 #[test]
 fn the_error_falls_with_the_fourth_power_of_the_step() {
     for kind in DeviceKind::ALL {
