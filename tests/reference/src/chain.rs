@@ -94,7 +94,7 @@ impl Model {
         }
         state.values[VELOCITY] = velocity;
         state.wheels[i].link = Link::Locked;
-        if let (BlockMode::Rocking { side, .. }, true) = (state.block, velocity != 0.0) {
+        if let (BlockMode::Rocking { side, .. } | BlockMode::Held { side }, true) = (state.block, velocity != 0.0) {
             let direction = velocity.signum();
             let side = if state.rotation() == 0.0 { direction } else { side };
             state.block = BlockMode::Rocking { side, direction };

@@ -134,6 +134,10 @@ impl Model {
             // Commands need a direction of motion; those that were given before have their clocks.
             if state.direction().is_none() {
                 self.command_at_rest(state, shaking);
+                if state.direction().is_some() {
+                    // A jolt has set a held block in motion.
+                    self.look_at_drive(state, shaking);
+                }
             }
             self.settle_springs(state);
             self.catch_up(state);

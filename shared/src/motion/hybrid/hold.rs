@@ -10,7 +10,7 @@ use crate::equation::Accelerations;
 use crate::equation::body::Body;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::observer::Observer;
+use crate::motion::observer::{Event, Observer};
 use crate::motion::state::Limits;
 
 impl<S: Real> HybridSystem<S> {
@@ -174,6 +174,25 @@ impl<S: Real> HybridSystem<S> {
             && state.device.wheels.map(|wheel| wheel.coupling) != before;
         if passed_on {
             self.turned(state);
+        }
+    }
+
+    /// A jolt gives the block the velocity `velocity` (rad/s), and friction holds it no more.
+    #[inline(never)]
+    pub(super) fn jolted(&self, state: &mut HybridState<S>, velocity: S, time: S, observer: &mut dyn Observer<S>) {
+        let motion = &mut state.motion;
+        motion.velocity = velocity;
+        motion.direction = Sign::of(velocity, motion.direction);
+        if motion.rotation == S::ZERO {
+            motion.side = motion.direction;
+        }
+        if state.held && velocity != S::ZERO {
+            (state.held, state.free) = (false, false);
+            // Nobody has watched Eq. 10 while the block was held.
+            self.look_at_drive(state);
+            if state.motion.rotation == S::ZERO {
+                observer.event(Event::Uplift, time, &state.motion);
+            }
         }
     }
 

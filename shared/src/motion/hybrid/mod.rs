@@ -403,7 +403,7 @@ impl<S: Real> HybridSystem<S> {
         answer: impl FnOnce(&AnyTransmission<S>, &mut EventContext<'_, S>),
     ) {
         let before = state.device.wheels.map(|wheel| wheel.coupling);
-        let motion = &mut state.motion;
+        let motion = &state.motion;
         let mut at = EventContext {
             body: &self.body,
             parameters: &self.transmission.parameters,
@@ -416,12 +416,8 @@ impl<S: Real> HybridSystem<S> {
         };
         answer(&self.transmission, &mut at);
         let velocity = at.velocity;
-        if velocity != motion.velocity {
-            motion.velocity = velocity;
-            motion.direction = Sign::of(velocity, motion.direction);
-            if motion.rotation == S::ZERO {
-                motion.side = motion.direction;
-            }
+        if velocity != state.motion.velocity {
+            self.jolted(state, velocity, time, observer);
         }
         let after = state.device.wheels.map(|wheel| wheel.coupling);
         if before.map(Coupling::is_engaged) != after.map(Coupling::is_engaged) {
