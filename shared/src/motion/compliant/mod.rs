@@ -116,7 +116,7 @@ impl<S: Real> CompliantSystem<S> {
         state
     }
 
-    /// Follows the block in steps of `step` (s) over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
+    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
     /// event: uplift where a foot leaves the ground that both pressed on, impact where both press again. A state that has overturned stays
     /// as it is.
     ///
@@ -132,6 +132,7 @@ impl<S: Real> CompliantSystem<S> {
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         let (mut time, mut tick, mut events, mut at_once) = (S::ZERO, 0_u32, 0_u32, 0_u32);
+        let step = ground.step(step);
         // The ground may have jumped here.
         self.settle(state, ground, time, observer);
         while time < duration && state.motion.phase != Phase::Overturned {

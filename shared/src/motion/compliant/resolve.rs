@@ -4,14 +4,12 @@ use super::CompliantSystem;
 use crate::equation::clutch_rule::ClutchRule;
 use crate::math;
 use crate::math::scalar::Real;
+use crate::motion::ground_pair::LONGEST_STEP;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::error::{ParameterError, require};
 use crate::structure::mount::Mount;
 use crate::structure::{Base, Structure};
-
-/// Longest step times the larger of ω_v and the decay of a foot's motion: some 60 steps a period.
-const LONGEST_STEP: f64 = 0.1;
 
 impl Structure {
     /// The equations of the structure with its added mass on its compliant base, and the longest step (s) that follows its feet. Impacts
@@ -49,6 +47,7 @@ impl Structure {
             sin_slenderness: S::of(sin_slenderness),
             cos_slenderness: S::of(cos_slenderness),
         };
+        // The larger of ω_v and the decay of a foot's motion.
         Ok((system, LONGEST_STEP / frequency.max(2.0 * damping)))
     }
 }

@@ -303,3 +303,23 @@ fn the_largest_acceleration_lies_between_the_ends_of_steps_too() {
     let (found, close) = (peak(step), peak(step / 32.0));
     assert!((found / close - 1.0).abs() < 1e-4, "{found} and {close}");
 }
+
+/// A soft foundation under a wave of 55 times its frequency: steps follow the wave.
+#[test]
+fn steps_follow_a_ground_that_is_faster_than_the_feet() {
+    let block = Block::new(0.5051, 15.277_f64.to_radians(), 4.0 / 3.0).unwrap();
+    let structure = Structure::new(block, Restitution::Geometric);
+    let (system, step) = on_feet(structure, 0.7022, 0.2222).resolve_compliant().unwrap();
+    let (p, alpha) = (block.frequency_parameter(), block.slenderness());
+    let push = AnySegment::Sine(Harmonics::cosine(5.924 * math::tan(alpha), 64.0 * p));
+    let peak = |step: f64| {
+        let (mut state, mut peaks) = (system.at_rest(), Peaks::default());
+        for (ground, duration) in [(&push, core::f64::consts::TAU / (64.0 * p)), (&still(), 2.71 / p)] {
+            let ground = GroundPair { horizontal: ground, vertical: None };
+            system.advance(step, &mut state, ground, duration, &LIMITS, &mut peaks).unwrap();
+        }
+        peaks.rotation / alpha
+    };
+    let (found, close) = (peak(step), peak(1e-5));
+    assert!((found / close - 1.0).abs() < 1e-5 && (close - 0.003_014).abs() < 1e-6, "{found} and {close}");
+}

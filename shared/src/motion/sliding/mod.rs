@@ -114,7 +114,7 @@ impl<S: Real> SlidingSystem<S> {
         state
     }
 
-    /// Follows the block in steps of `step` (s) over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
+    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
     /// event. Intervals end at turns; θ̇ may have an extreme inside one. A state that has ended stays as it is.
     ///
     /// # Errors
@@ -129,6 +129,7 @@ impl<S: Real> SlidingSystem<S> {
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
         let (mut time, mut tick, mut events, mut at_once) = (S::ZERO, 0_u32, 0_u32, 0_u32);
+        let step = ground.step(step);
         if state.motion.phase == Phase::Rocking && !state.has_ended() {
             // The ground may jump here.
             self.settle_seen(state, ground.at(time), time, observer);

@@ -61,3 +61,11 @@ fn below_friction_and_slenderness_it_stands() {
     let (state, seen) = shake(&block(0.2, 0.5), &[(sine(0.2, 4.0), None, 10.0)], 0.01);
     assert!(state.stands() && state.displacement == 0.0 && seen.events.is_empty());
 }
+
+/// A wave of six steps is followed by shorter ones.
+#[test]
+fn steps_follow_a_ground_that_is_faster_than_the_block() {
+    let pieces = [(sine(0.6, 6000.0), None, core::f64::consts::TAU / 6000.0), (AnySegment::Quiet, None, 1e-3)];
+    let [found, close] = [1.8e-4, 1e-6].map(|step| shake(&block(0.4, 0.15), &pieces, step).0.farthest);
+    assert!((found / close - 1.0).abs() < 1e-5 && close > 0.0, "{found} and {close}");
+}
