@@ -29,8 +29,7 @@ impl<S: Real> Accumulation<S> {
     /// friction holds the block at the top of a swing; rad/s²) are `here`, with restitution η; impacts count down to an incoming speed
     /// `counted` (rad/s).
     pub fn of(here: (S, S), there: (S, S), restitution: S, speed: S, counted: S) -> Accumulation<S> {
-        let largest = here.0.larger(here.1).larger(there.0).larger(there.1);
-        let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
+        let [largest_here, largest_there] = [here, there].map(|(rising, falling)| rising.larger(falling));
         let swing = |(rising, falling): (S, S)| {
             let fall = (falling / rising).square_root();
             let back = if falling > S::ZERO { fall / falling } else { S::ZERO };
@@ -41,6 +40,9 @@ impl<S: Real> Accumulation<S> {
         let ratio_here = restitution * fall_here;
         let ratio_there = restitution * fall_there;
         let both = ratio_here * ratio_there;
+        // A block that friction holds at the top of its swing never comes to the other side.
+        let largest = if ratio_here > S::ZERO { largest_here.larger(largest_there) } else { largest_here };
+        let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
             return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0, acceleration };
         }
@@ -104,5 +106,14 @@ mod tests {
         }
         let tail = Accumulation::of(sides[0], sides[1], eta, 0.4, 1e-3);
         assert!((tail.duration - time).abs() < 1e-14 * time);
+    }
+
+    /// Held at the top of the first swing, the block has no other: v/a₁, without an impact. Held at the top of the second one, it has had both.
+    #[test]
+    fn a_swing_that_friction_holds_at_its_top_is_the_last() {
+        let held = Accumulation::of((2.0_f64, 0.0), (5.0, 4.0), 0.7, 0.1, 1e-3);
+        assert_eq!((held.acceleration, held.impacts, held.duration), (2.0, 0, 0.05));
+        let later = Accumulation::of((2.0_f64, 1.5), (5.0, 0.0), 0.7, 0.1, 1e-3);
+        assert_eq!((later.acceleration, later.impacts), (5.0, 1));
     }
 }
