@@ -1,8 +1,9 @@
 //! Limits on crowded events (chattering): detection of a graze, and the error of one that does not end.
 
-use super::HybridState;
+use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::Coupling;
 use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 use crate::motion::state::{Phase, Stopped};
 
 /// Number of events at once that is taken for a graze: a guard touches zero, and rounding decides in which mode
@@ -24,6 +25,14 @@ pub(super) const STEPS_PER_EVENT: u32 = 5;
 /// Number of steps without a gap in time, after one of `length` (s) that follows `before` of them; `unit` is 1/p (s).
 pub(super) fn crowded<S: Real>(before: u32, length: S, unit: S) -> u32 {
     if length > S::of(AT_ONCE) * unit { 0 } else { before + 1 }
+}
+
+impl<S: Real> HybridSystem<S> {
+    /// Whether a step from `side` ended in an impact that does not end in rest: however short its swings are, they shrink, and it is no event at
+    /// once.
+    pub(super) fn bounces(&self, state: &HybridState<S>, side: Sign) -> bool {
+        state.motion.side != side && state.motion.velocity.abs() > self.rest_speed
+    }
 }
 
 /// Error of too many events at once, with the mode.

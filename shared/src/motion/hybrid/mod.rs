@@ -212,7 +212,7 @@ impl<S: Real> HybridSystem<S> {
         }
         let step = integrator.step().map_or(duration, |step| next_stop(tick, step, *time, duration));
         let mut stop = self.until_due(state, *time, step);
-        let before = *time;
+        let (before, side) = (*time, state.motion.side);
         let grazes = *at_once >= MOST_AT_ONCE;
         if grazes {
             stop = stop.smaller(before + (S::of(GRAZE) * unit).larger(S::of(4.0) * S::EPSILON * before));
@@ -228,7 +228,7 @@ impl<S: Real> HybridSystem<S> {
                 (*events, *steps) = (*events - 1, *steps + 1);
             }
         }
-        *at_once = crowded(*at_once, *time - before, unit);
+        *at_once = if self.bounces(state, side) { 0 } else { crowded(*at_once, *time - before, unit) };
         self.ramps(state);
         self.command(state, *time, observer);
         if !(state.motion.rotation.is_finite() && state.motion.velocity.is_finite()) {

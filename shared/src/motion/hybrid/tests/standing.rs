@@ -17,6 +17,7 @@ use crate::structure::Structure;
 use crate::structure::block::Geometry;
 use crate::structure::device::{DeviceKind, KinematicsKind};
 use crate::structure::drivetrain::{Actuation, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use crate::structure::restitution::Restitution;
 
 /// Friction of the bearings, m/s²: the typical one.
 const DRY: f64 = 0.05;
@@ -342,4 +343,24 @@ fn a_push_that_ends_above_the_threshold_lifts_in_time() {
         let resolved = 256.0 * f64::EPSILON / math::square_root(2.0 * excess);
         assert!((found - expected).abs() < resolved, "{excess}: {found} for {expected}");
     }
+}
+
+/// Bounces that take hardly anything end in rest, although hundreds of the last ones follow one another within 1e-9/p.
+#[test]
+fn bounces_are_no_events_at_once_however_short() {
+    let base = structure(Geometry::Full, 15.0, DeviceKind::ClutchedPair, 0.5, KinematicsKind::Consistent);
+    let actuation = Actuation { engagement_delay: 0.01, release_delay: 0.01, ..Actuation::default() };
+    let drivetrain = Drivetrain { engagement: Engagement::Rigid, actuation, ..Drivetrain::default() };
+    let rests = |rest_speed: f64| {
+        let structure = Structure { restitution: Restitution::Constant(0.99), rest_speed, ..base };
+        let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+        let mut state = machine.released_at(1e-6 * structure.block.slenderness(), 0.0, [0.0; 3]);
+        let (mut nobody, shaking) = ((), Shaking::level(&crate::ground::Harmonics::QUIET));
+        let mut watcher = Watcher::new(&mut nobody);
+        let limits = Limits { overturned: 1.0, events: 100_000 };
+        machine.advance(&tight(), &mut state, shaking, 30.0, &limits, &mut watcher).unwrap();
+        watcher.peaks.ended.unwrap()
+    };
+    let (sooner, later) = (rests(1e-8), rests(1e-12));
+    assert!((later - sooner).abs() < 1e-9 * sooner, "{sooner} and {later}");
 }
