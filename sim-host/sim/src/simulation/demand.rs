@@ -41,7 +41,7 @@ pub struct Demand {
     /// As `stroke_m`, with the fall of a block that overturns, up to where it lies on the ground.
     #[serde(skip)]
     pub stroke_with_fall_m: Option<f64>,
-    /// The largest of `tooth_stress_mpa`, with the fall of a block that overturns.
+    /// The largest of `tooth_stress_mpa`, with the fall of a block that overturns; 0 where the block never rocked, none without a gear.
     #[serde(skip)]
     pub tooth_stress_with_fall_mpa: Option<f64>,
     /// The largest forces and the farthest travel with their times.
@@ -175,7 +175,7 @@ impl Demand {
             coil_energy_j: table.coil.as_ref().zip(coils).map(|(coil, used)| used.energy_j(coil)),
             warnings: Vec::new(),
             stroke_with_fall_m: farthest(&whole),
-            tooth_stress_with_fall_mpa: tooth_stresses(task, table, &whole).into_iter().reduce(f64::max),
+            tooth_stress_with_fall_mpa: table.gear.map(|_| tooth_stresses(task, table, &whole).into_iter().fold(0.0, f64::max)),
             located: Located::of(task, &report),
             coils,
         };

@@ -5,6 +5,7 @@ use sprag_shared::structure::block::{GRAVITY, Geometry};
 use super::*;
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
+use crate::scene::checks::{ChecksTable, GearTable};
 
 /// A block of 2 m and 10° under a cycle of sine of `amplitude`, with a device of σ = 0.5 and what `device` says of it.
 fn runs(amplitude: f64, device: &str, more: &str) -> Vec<DeviceRun> {
@@ -31,6 +32,21 @@ fn the_peak_force_lies_between_samples_too() {
     assert!(fine.1 > 1.02 * coarse.1, "a history of the one must show what that of the other does not: {coarse:?} {fine:?}");
     assert_eq!(coarse.0, fine.0);
     assert!(fine.1 <= fine.0 * (1.0 + 1e-12) && fine.1 > 0.99 * fine.0, "{fine:?}");
+}
+
+/// A quantile of stresses over motions is to count those that do not rock the block as no stress, not to leave them out.
+#[test]
+fn a_gear_under_a_block_that_never_rocks_bears_nothing() {
+    let gear = GearTable { module_mm: 4.0, face_width_mm: 40.0, teeth: 20, allowable_stress_mpa: 200.0 };
+    let stress = |amplitude: f64, gear: Option<GearTable>| {
+        let mut scene = scene(amplitude, "kind = 'inerter'", "");
+        scene.file.block.mass_kg = Some(1e4);
+        scene.file.checks = Some(ChecksTable { gear, ..ChecksTable::default() });
+        let run = simulate(&scene, &scene.ground_motions().unwrap(), &Interrupt::default()).unwrap().remove(0);
+        run.checks.unwrap().tooth_stress_with_fall_mpa
+    };
+    assert_eq!((stress(0.5, Some(gear)), stress(0.5, None), stress(5.0, None)), (Some(0.0), None, None));
+    assert!(stress(5.0, Some(gear)).unwrap() > 0.0);
 }
 
 /// Slipping plates pull with their capacity, and with twice that while a release comes late.
