@@ -18,7 +18,8 @@ use crate::scene::device::FlywheelTable;
 /// The results of `[checks]`, the fall of a block that overturns left out; none where the block never rocked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Demand {
-    /// Coefficient of friction without which the toe would slide, or the block that never rocks.
+    /// Coefficient of friction without which the toe would slide, or the block that never rocks; none where the toe would leave the ground,
+    /// for no coefficient is enough there.
     pub friction_needed: Option<f64>,
     /// When, s.
     pub friction_needed_time_s: Option<f64>,
@@ -163,12 +164,17 @@ impl Demand {
     /// Of what `checks` found about the device of `task`.
     pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report);
+        // A look may miss the instants at which V ≤ 0, which the search for its smallest value finds.
+        let lifted = report.vertical.filter(|vertical| vertical.value <= S::ZERO).map(|vertical| vertical.time);
+        let contact_lost = report.contact_lost.or(lifted);
+        // |H|/V grows without bound towards V = 0: what is found of it there is a matter of rounding.
+        let friction = report.friction.filter(|_| contact_lost.is_none());
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
         let mut demand = Demand {
-            friction_needed: number(&report.friction).or_else(|| standing_friction(task, table)),
-            friction_needed_time_s: report.friction.map(|extreme| extreme.time.to_f64()),
+            friction_needed: number(&friction).or_else(|| standing_friction(task, table).filter(|_| contact_lost.is_none())),
+            friction_needed_time_s: friction.map(|extreme| extreme.time.to_f64()),
             smallest_vertical_reaction_ratio: number(&report.vertical),
-            contact_lost_time_s: report.contact_lost.map(Real::to_f64),
+            contact_lost_time_s: contact_lost.map(Real::to_f64),
             force_ratio: support_force_ratio(task, &report),
             stroke_m: farthest(&report),
             tooth_stress_mpa: tooth_stresses(task, table, &report),
@@ -193,7 +199,10 @@ impl Demand {
         }
         let mut warn = |message: String| self.warnings.push(message);
         if let Some(time) = self.contact_lost_time_s {
-            warn(format!("the toe would leave the ground at {time:.4} s: from there on the model does not hold"));
+            warn(format!(
+                "the toe would leave the ground at {time:.4} s: no coefficient of friction is enough, and from there on the model does \
+                 not hold"
+            ));
         }
         if let Some(available) = table.friction_coefficient
             && let Some(needed) = self.friction_needed.filter(|needed| *needed > available)

@@ -34,6 +34,21 @@ fn the_peak_force_lies_between_samples_too() {
     assert!(fine.1 <= fine.0 * (1.0 + 1e-12) && fine.1 > 0.99 * fine.0, "{fine:?}");
 }
 
+/// |H|/V has no largest value where V goes through 0, and what steps of one tolerance find of it is not what those of another do.
+#[test]
+fn a_toe_that_leaves_the_ground_needs_no_number_of_friction() {
+    let device = "kind = 'inerter'\nmount = 'base-corners'\npulley_ratio = 3";
+    for tolerance in ["1e-10", "1e-13"] {
+        let more = format!("[checks]\nfriction_coefficient = 0.6\n[accuracy]\ntolerance = {tolerance}");
+        let checks = runs(10.0, device, &more).remove(0).checks.unwrap();
+        assert!(checks.smallest_vertical_reaction_ratio.unwrap() < 0.0, "{checks:?}");
+        assert_eq!((checks.friction_needed, checks.friction_needed_time_s), (None, None));
+        let said = |words: &str| checks.warnings.iter().any(|warning| warning.starts_with(words));
+        assert!(said("the toe would leave the ground at 0.2157 s: no coefficient of friction is enough"), "{checks:?}");
+        assert!(!said("the toe would slide: "), "{checks:?}");
+    }
+}
+
 /// A quantile of stresses over motions is to count those that do not rock the block as no stress, not to leave them out.
 #[test]
 fn a_gear_under_a_block_that_never_rocks_bears_nothing() {

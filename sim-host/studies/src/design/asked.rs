@@ -34,7 +34,7 @@ pub struct Asked {
     pub jump: Extreme<f64>,
     /// What the coils did, of clutches that have some.
     pub coils: Option<CoilUse>,
-    /// Coefficient of friction that the toe needs, impacts and jolts included.
+    /// Coefficient of friction that the toe needs, impacts and jolts included; none where it would leave the ground, for none is enough.
     pub friction_needed: Option<f64>,
     /// Whether the toe would leave the ground, at a jolt or between.
     pub contact_lost: bool,
@@ -82,6 +82,7 @@ impl Asked {
         let frictions =
             [checks.and_then(|checks| checks.friction_needed), impulses.impact_friction_needed, impulses.jolt_friction_needed];
         let lifted = impulses.jolt_pull_m_s.is_some_and(|pull| pull > 0.0);
+        let contact_lost = lifted || checks.is_some_and(|checks| checks.contact_lost_time_s.is_some());
         Asked {
             outcome: run.outcome,
             peak_rotation: run.peak_rotation,
@@ -99,8 +100,8 @@ impl Asked {
             },
             jump,
             coils: checks.and_then(|checks| checks.coils),
-            friction_needed: frictions.into_iter().flatten().reduce(f64::max),
-            contact_lost: lifted || checks.is_some_and(|checks| checks.contact_lost_time_s.is_some()),
+            friction_needed: frictions.into_iter().flatten().reduce(f64::max).filter(|_| !contact_lost),
+            contact_lost,
             error: run.error.map(|report| report.estimate),
         }
     }

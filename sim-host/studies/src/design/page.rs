@@ -235,15 +235,19 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         );
     }
     let friction = findings.lists.iter().filter_map(|list| list.friction_needed).reduce(f64::max);
+    let lost = findings.lists.iter().map(|list| list.contact_lost).max().unwrap_or(0);
     if let Some(friction) = friction {
         limit(format!(
-            "The block neither slides nor hops here; that needs a coefficient of friction of {} under it.",
-            figures(friction)
+            "The block neither slides nor hops here; that needs a coefficient of friction of {} under it{}.",
+            figures(friction),
+            if lost > 0 { " where its toe stays on the ground" } else { "" }
         ));
     }
-    let lost = findings.lists.iter().map(|list| list.contact_lost).max().unwrap_or(0);
     if lost > 0 {
-        limit(format!("Under {} the toe would leave the ground: from there on the numbers do not hold.", motions(lost)));
+        limit(format!(
+            "Under {} the toe would leave the ground: no coefficient of friction is enough, and from there on the numbers do not hold.",
+            motions(lost)
+        ));
     }
     let of_sensors = findings.lists.iter().filter(|list| list.sensors.is_some());
     if let Some(jump) = of_sensors.filter_map(|list| list.jump.as_ref()).map(|jump| jump.value).reduce(f64::max) {

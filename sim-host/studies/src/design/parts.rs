@@ -67,7 +67,7 @@ pub struct Built {
     pub coils_engaged_s: Option<Largest>,
     /// Largest energy of both, J; null where the scene has no coil.
     pub coil_energy_j: Option<Largest>,
-    /// Largest coefficient of friction that the toe needs, impacts and jolts included.
+    /// Largest coefficient of friction that the toe needs, impacts and jolts included, over the motions under which it stays on the ground.
     pub friction_needed: Option<f64>,
     /// Motions under which the toe would leave the ground.
     pub contact_lost: usize,

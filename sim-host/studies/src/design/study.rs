@@ -76,7 +76,8 @@ pub struct PartsList {
     pub scene_capacity_n: Option<f64>,
     /// Sensors of a controller.
     pub sensors: Option<SensorClass>,
-    /// Largest coefficient of friction that the toe needs, impacts and jolts included; that and the next two are those of both runs.
+    /// Largest coefficient of friction that the toe needs, impacts and jolts included, over the motions under which it stays on the ground; that
+    /// and the next two are those of both runs.
     pub friction_needed: Option<f64>,
     /// Motions under which the toe would leave the ground.
     pub contact_lost: usize,

@@ -7,7 +7,8 @@ use sprag_shared::math;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
-use sprag_sim::simulation::simulate;
+use sprag_sim::simulation::demand::Impulses;
+use sprag_sim::simulation::{DeviceRun, simulate};
 
 use super::asked::Asked;
 use super::basis::Basis;
@@ -186,7 +187,20 @@ fn jolts_count_for_friction_and_contact() {
     let run = simulate(&subject.scene, &motion.ground, &Interrupt::default()).unwrap().remove(0);
     let asked = Asked::of(&subject.scene, &motion.ground, &run);
     let (impact, jolt) = (run.impulses.impact_friction_needed.unwrap(), run.impulses.jolt_friction_needed.unwrap());
-    assert!(jolt > impact && asked.friction_needed == Some(jolt), "{asked:?} {:?}", run.impulses);
+    // No friction holds a toe that a jolt pulls up.
+    assert!(jolt > impact && asked.friction_needed.is_none(), "{asked:?} {:?}", run.impulses);
+    let pressed = DeviceRun { impulses: Impulses { jolt_pull_m_s: None, ..run.impulses }, ..run.clone() };
+    let pressed = Asked::of(&subject.scene, &motion.ground, &pressed);
+    assert_eq!((pressed.friction_needed, pressed.contact_lost), (Some(jolt), false));
     let elsewhere = run.checks.as_ref().unwrap().contact_lost_time_s;
     assert!(elsewhere.is_none() && run.impulses.jolt_pull_m_s.unwrap() > 0.0 && asked.contact_lost, "{asked:?}");
+}
+
+/// |H|/V has no largest value where V goes through 0.
+#[test]
+fn a_toe_that_leaves_the_ground_is_not_given_a_friction() {
+    let (list, page) = designed(&pier("inerter", CORNERS, &["ground.0.amplitude_ratio=10", "ground.0.frequency_ratio=9"]));
+    assert_eq!((list.friction_needed, list.contact_lost), (None, 1));
+    assert!(!page.contains("needs a coefficient of friction"), "{page}");
+    assert!(page.contains("Under 1 motion the toe would leave the ground: no coefficient of friction is enough"), "{page}");
 }
