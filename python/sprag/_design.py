@@ -95,7 +95,7 @@ def design(
     InputError
         For an assumption outside its range, a block without a mass, and devices that there are not.
     RunError
-        Where no motion lifts the block, and where no standard gear bears the load.
+        Where no device has a list: no motion lifts the block, or no standard gear bears the load.
     """
     basis = {
         "margin": margin,

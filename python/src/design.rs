@@ -15,7 +15,7 @@ use sprag_studies::design::table::{delay_table, motion_table, parts_table};
 use sprag_studies::sensitivity::motion::{RecordFiles, StudyMotion};
 
 use crate::columns::{self, Columns};
-use crate::errors::{Raise as _, assumption, missing, range, refused};
+use crate::errors::{Raise as _, assumption, by_assumption, missing, range, refused};
 use crate::long_call::long_call;
 use crate::run::warnings;
 use crate::scene::{Named, Scene};
@@ -95,7 +95,8 @@ pub fn design<'py>(
             let read: Vec<_> = motions.iter().flat_map(|motion| motion.records.iter().cloned()).collect();
             let page = page(&problem, &findings, motions.len(), 0);
             let texts = [serde_json::to_string(&findings.lists), serde_json::to_string(&findings.worst)];
-            Ok((tables, page, texts, findings.failed, findings.left_out, warnings(scene, &read)))
+            let left_out: Vec<String> = findings.left_out.iter().map(|line| by_assumption(line)).collect();
+            Ok((tables, page, texts, findings.failed, left_out, warnings(scene, &read)))
         })
     })?;
     let (tables, page, [lists, worst], failures, left_out, warnings) = made?;

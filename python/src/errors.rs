@@ -196,6 +196,12 @@ pub fn assumption(option: &str) -> String {
     }
 }
 
+/// `words` on a design with the names of its assumptions here in the place of the command's options.
+pub fn by_assumption(words: &str) -> String {
+    let here = |words: String, option: &str| words.replace(&format!("--{option}"), &assumption(option));
+    ["teeth", "face-width", "allowable-stress"].into_iter().fold(words.to_owned(), here)
+}
+
 impl Raise for DesignError {
     fn raise(self) -> PyErr {
         let message = self.to_string();
@@ -203,7 +209,9 @@ impl Raise for DesignError {
             DesignError::Range { option, value, range: allowed } => range(&assumption(option), value, allowed),
             DesignError::UnknownDevice { name, known } => range("devices", format_args!("{name:?}"), &format!("one of {known}")),
             DesignError::NoDevice { .. } => input(&message, Some("device"), None, None),
-            DesignError::NoRun { .. } | DesignError::NeverRocks { .. } | DesignError::NoGear { .. } => failed(message),
+            DesignError::NoRun { .. } | DesignError::NeverRocks { .. } | DesignError::NoGear { .. } => {
+                failed(by_assumption(&message))
+            }
             DesignError::Scene(error) => error.raise(),
             DesignError::Interrupted => PyKeyboardInterrupt::new_err(()),
         }

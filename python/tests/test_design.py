@@ -105,3 +105,5 @@ def test_scenes_that_ask_for_no_size_are_refused(scene: sprag.Scene) -> None:
     assert raised.value.key == "vertical"
     with pytest.raises(sprag.RunError, match="no motion lifts the block"):
         sprag.design(scene.set("ground.0.scale", 0.001))
+    with pytest.raises(sprag.RunError, match="face_width_modules or allowable_stress_mpa has to be larger"):
+        sprag.design(scene, allowable_stress_mpa=0.01)

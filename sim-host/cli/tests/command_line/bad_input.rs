@@ -188,7 +188,7 @@ fn bad_input_of_design_costs_one_line() {
     heavy(&["--allowable-stress", "-3"], &["--allowable-stress is -3", "above 0"]);
     heavy(&["--tolerance", "0"], &["--tolerance is 0", "above 0"]);
     heavy(&["--device", "none"], &["--device \"none\"", "\"inerter\", \"clutched pair\""]);
-    heavy(&["--allowable-stress", "0.01"], &["inerter", "module 50 mm", "0.01 MPa"]);
+    heavy(&["--allowable-stress", "0.01"], &["inerter", "module 50 mm", "0.01 MPa", "--allowable-stress"]);
     heavy(&["--set", "ground.0.scale=0.01"], &["no motion lifts the block"]);
     let vertical =
         ["vertical.0.motion=sine", "vertical.0.amplitude_g=0.1", "vertical.0.frequency_hz=1"].map(|key| ["--set", key]);

@@ -50,13 +50,16 @@ pub enum DesignError {
     },
     /// No gear.
     #[error(
-        "{device}: a force of {force_n:.4e} N at the rack is more than a pinion of {teeth} teeth up to module 50 mm bears at {allowable_mpa} MPa"
+        "{device}: a load of {load_n:.4e} N at the rack ({load}) is more than a pinion of {teeth} teeth up to module 50 mm bears at \
+         {allowable_mpa} MPa: --teeth, --face-width or --allowable-stress has to be larger"
     )]
     NoGear {
         /// Device.
         device: String,
-        /// Largest force of one flywheel at the rack, N.
-        force_n: f64,
+        /// The load of its teeth at the largest module, N.
+        load_n: f64,
+        /// What load that is, in words.
+        load: &'static str,
         /// Teeth.
         teeth: u32,
         /// Allowable stress, MPa.
@@ -65,4 +68,11 @@ pub enum DesignError {
     /// Ctrl-C.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl DesignError {
+    /// Whether it is the matter of one device, beside which others may have lists.
+    pub(super) fn is_of_one_device(&self) -> bool {
+        matches!(self, DesignError::NoRun { .. } | DesignError::NeverRocks { .. } | DesignError::NoGear { .. })
+    }
 }

@@ -30,8 +30,11 @@ pub struct Pinion {
 /// The one of the smallest standard module whose teeth bear `force_n` (N, above 0), the largest of one flywheel at the rack: with a clutch the
 /// force at which that slips, so that a tooth is never the weakest part; without one `force_n` times the service factor.
 ///
-/// T ≥ k F ρ with T of the series R10, and F_t/(b m Y) ≤ σ ([`Gear::bending_stress`]) with F_t = T/ρ or k F. `None` where no module is enough.
-pub fn pinion(force_n: f64, has_clutch: bool, basis: &Basis) -> Option<Pinion> {
+/// T ≥ k F ρ with T of the series R10, and F_t/(b m Y) ≤ σ ([`Gear::bending_stress`]) with F_t = T/ρ or k F.
+///
+/// # Errors
+/// The pinion of the largest module, where that is not enough.
+pub fn pinion(force_n: f64, has_clutch: bool, basis: &Basis) -> Result<Pinion, Pinion> {
     let of_module = |module_mm: f64| {
         let module_m = 1e-3 * module_mm;
         let radius_m = 0.5 * module_m * f64::from(basis.teeth);
@@ -55,7 +58,9 @@ pub fn pinion(force_n: f64, has_clutch: bool, basis: &Basis) -> Option<Pinion> {
             stress_mpa: 1e-6 * gear.bending_stress(load_n),
         }
     };
-    MODULES_MM.into_iter().map(of_module).find(|pinion| pinion.stress_mpa <= basis.allowable_stress_mpa)
+    let [.., largest] = MODULES_MM;
+    let bears = |pinion: &Pinion| pinion.stress_mpa <= basis.allowable_stress_mpa;
+    MODULES_MM.into_iter().map(of_module).find(bears).ok_or_else(|| of_module(largest))
 }
 
 /// Teeth of a rack that travels by `travel_m` from end to end: those of the travel, and two beyond each end, where the pinion meshes.
@@ -88,7 +93,8 @@ mod tests {
         let [one, two] = [10.0, 20.0].map(|force| pinion(force, false, &basis).unwrap());
         assert_eq!((one.module_mm, two.module_mm), (1.0, 1.0));
         assert!((two.torque_needed_n_m / one.torque_needed_n_m - 2.0).abs() < 1e-12);
-        assert_eq!(pinion(1e9, true, &basis), None);
+        let refused = [false, true].map(|has_clutch| pinion(1e9, has_clutch, &basis).unwrap_err());
+        assert!((refused[0].load_n / 1.5e9 - 1.0).abs() < 1e-12 && refused[1].load_n >= 1.5e9, "{refused:?}");
     }
 
     #[test]

@@ -137,7 +137,8 @@ impl<'a> Problem<'a> {
     /// depend on the number of threads.
     ///
     /// # Errors
-    /// [`DesignError`] for a device that nothing lifts, or that no standard gear bears, and for an interrupt.
+    /// [`DesignError`] for an interrupt, and where there is no list at all: for the first device that has no run, that nothing lifts, or whose force no
+    /// standard gear bears. Beside devices with a list such a one is among what was left out.
     pub fn solve(
         &self,
         motions: &[StudyMotion],
@@ -147,11 +148,21 @@ impl<'a> Problem<'a> {
     ) -> Result<Findings, DesignError> {
         let mut findings = Findings::default();
         let work = Work { motions, interrupt, begin, done };
+        let mut first = None;
         for &index in &self.devices {
-            let list = self.list(index, work, &mut findings)?;
-            findings.lists.push(list);
+            match self.list(index, work, &mut findings) {
+                Ok(list) => findings.lists.push(list),
+                Err(error) if error.is_of_one_device() => {
+                    findings.left_out.push(error.to_string());
+                    first = first.or(Some(error));
+                }
+                Err(error) => return Err(error),
+            }
         }
-        Ok(findings)
+        match first {
+            Some(error) if findings.lists.is_empty() => Err(error),
+            _ => Ok(findings),
+        }
     }
 
     fn list(&self, index: usize, work: Work<'_>, findings: &mut Findings) -> Result<PartsList, DesignError> {
@@ -174,13 +185,14 @@ impl<'a> Problem<'a> {
         let force_n = drive.value * weight;
         let has_clutches = scene.file.device[index].kind == Kind::ClutchedPair;
         let sets = if let Mount::BaseCorners { .. } = scene.devices[index].device.mount { 2 } else { 1 };
-        let no_gear = || DesignError::NoGear {
+        let no_gear = |refused: Pinion| DesignError::NoGear {
             device: device.clone(),
-            force_n,
+            load_n: refused.load_n,
+            load: if has_clutches { "at which the clutch slips" } else { "the largest force times the service factor" },
             teeth: basis.teeth,
             allowable_mpa: basis.allowable_stress_mpa,
         };
-        let chosen = pinion(force_n, has_clutches, basis).ok_or_else(no_gear)?;
+        let chosen = pinion(force_n, has_clutches, basis).map_err(no_gear)?;
         // Changed scenes have this device alone.
         let in_words = |error: SceneError| error.to_string().replacen("device.0.", &format!("device.{index}."), 1);
         let (mut delay, mut delay_unknown, mut built, mut built_unknown) = (None, None, None, None);

@@ -204,3 +204,27 @@ fn a_toe_that_leaves_the_ground_is_not_given_a_friction() {
     assert!(!page.contains("needs a coefficient of friction"), "{page}");
     assert!(page.contains("Under 1 motion the toe would leave the ground: no coefficient of friction is enough"), "{page}");
 }
+
+/// A light flywheel beside one whose force no standard gear bears.
+#[test]
+fn a_device_without_a_list_leaves_the_others_theirs() {
+    let solve = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|&item| item.to_owned()).collect();
+        let text = "block = { size_m = 2.0, slenderness_deg = 10.0, mass_kg = 1e4 }
+            device = [{ kind = 'inerter', name = 'light', mass_ratio = 1e-3 }, { kind = 'inerter', name = 'heavy', mass_ratio = 5.0 }]
+            ground = [{ motion = 'sine', amplitude_ratio = 2.0, frequency_ratio = 4.0 }]";
+        let scene = Scene::parse_with(text, "scene", &overrides).unwrap();
+        let motions = [StudyMotion::own(&scene).unwrap().unwrap()];
+        let basis = Basis { allowable_stress_mpa: 0.1, ..Basis::default() };
+        Problem::new(&scene, &[], basis).unwrap().solve(&motions, &Interrupt::default(), &|_| (), &|| ())
+    };
+    let findings = solve(&[]).unwrap();
+    let names: Vec<&str> = findings.lists.iter().map(|list| list.device.as_str()).collect();
+    assert_eq!((names, findings.left_out.len()), (vec!["light"], 1));
+    let reason = &findings.left_out[0];
+    assert!(reason.starts_with("heavy: a load of ") && reason.contains("times the service factor"), "{reason}");
+    assert!(["--teeth", "--face-width", "--allowable-stress"].iter().all(|option| reason.contains(option)), "{reason}");
+    // Nothing is left where no device has a list.
+    let refused = solve(&["ground.0.amplitude_ratio=0.5"]).unwrap_err().to_string();
+    assert!(refused.starts_with("light: no motion lifts the block"), "{refused}");
+}
