@@ -31,13 +31,14 @@ impl LoopScene {
     /// Closed loop of `scene`, with its records.
     ///
     /// # Errors
-    /// [`GroundError`] for a scene without a pair that takes commands, one that begins in motion, and a record that cannot be read.
+    /// [`GroundError`] for a scene without a pair that takes commands, one on a foundation or that begins in motion, and a record that cannot be read.
     pub fn new(scene: Scene) -> Result<LoopScene, GroundError> {
         let pairs: Vec<usize> =
             (0..scene.devices.len()).filter(|&index| scene.devices[index].device.kind == DeviceKind::ClutchedPair).collect();
         if pairs.is_empty() {
             return Err(scene.key("device").missing("a closed loop needs a [[device]] of kind \"clutched-pair\"").into());
         }
+        scene.check_loop_base()?;
         let block = &scene.file.block;
         for (key, ratio) in
             [("initial_rotation_ratio", block.initial_rotation_ratio), ("initial_velocity_ratio", block.initial_velocity_ratio)]
@@ -103,5 +104,11 @@ mod tests {
             let error = scene(change).unwrap_err().to_string();
             assert!(error.starts_with(refusal), "{error}");
         }
+        let text =
+            "block = { size_m = 2.0, slenderness_deg = 10.0, foundation = { vertical_frequency_hz = 8.0, damping_ratio = 0.3 } }
+            device = [{ kind = 'clutched-pair', mass_ratio = 0.5 }]
+            ground = [{ motion = 'sine', amplitude_g = 0.3, frequency_hz = 1.0 }]";
+        let error = LoopScene::new(Scene::parse(text, "scene").unwrap()).unwrap_err().to_string();
+        assert_eq!(error, "scene: block.foundation: a controller follows a block on rigid ground");
     }
 }

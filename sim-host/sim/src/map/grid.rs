@@ -270,6 +270,9 @@ fn mapped(scene: &Scene, map: &MapTable) -> Result<Vec<Mapped>, SceneError> {
         let reason = "a closed loop needs a [[device]] of kind \"clutched-pair\" whose clutches take commands";
         return Err(scene.key("map.laws").conflict(reason));
     }
+    if !map.laws.is_empty() {
+        scene.check_loop_base()?;
+    }
     Ok(mapped)
 }
 
@@ -447,5 +450,14 @@ mod tests {
         assert!(refused("map.x = { key = 'device.0.kind', from = 0, to = 1, cells = 3 }").contains("device.0.kind"));
         let beyond = refused("map.x = { key = 'block.restitution', from = 0.5, to = 1.5, cells = 3 }");
         assert!(beyond.contains("block.restitution is 1.5"), "{beyond}");
+    }
+
+    #[test]
+    fn no_loop_is_closed_over_a_block_on_a_foundation() {
+        let soft = UNITS.replace("restitution = 0.8", "foundation = { vertical_frequency_hz = 8.0, damping_ratio = 0.3 }");
+        let axes = "map.x = { key = 'ground.0.amplitude_g', from = 0.3, to = 0.9, cells = 4 }";
+        assert!(grid_of(&soft, axes).is_ok());
+        let refused = grid_of(&soft, &format!("{axes}\nmap.laws = ['passive']")).unwrap_err().to_string();
+        assert_eq!(refused, "scene: block.foundation: a controller follows a block on rigid ground");
     }
 }

@@ -6,9 +6,12 @@ use sprag_shared::structure::block::Geometry;
 use sprag_shared::structure::foundation::Foundation;
 use sprag_shared::structure::mount::Mount;
 
-use super::SceneDevice;
 use super::error::SceneError;
 use super::schema::{KeyOf, MethodName, SceneFile};
+use super::{Scene, SceneDevice};
+
+/// Why no controller drives the clutches of a device on a foundation.
+const CONTROLLED: &str = "a controller follows a block on rigid ground";
 
 /// A spring and a dashpot under each toe.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -63,7 +66,7 @@ pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], key: &KeyOf<'_>) 
         return refuse("output.energy", "the ledger has no entry for a foundation that gives (block.foundation)");
     }
     if file.controller.is_some() {
-        return refuse(name, "a controller follows a block on rigid ground");
+        return refuse(name, CONTROLLED);
     }
     let in_steps = "a block on a foundation is followed by Runge-Kutta steps";
     if file.accuracy.level.is_some() {
@@ -74,6 +77,19 @@ pub(super) fn check(file: &SceneFile, devices: &[SceneDevice], key: &KeyOf<'_>) 
         return refuse("accuracy.method", &format!("{in_steps}: with a step give runge-kutta-4"));
     }
     Ok(())
+}
+
+impl Scene {
+    /// Refuses a closed loop over a block on a foundation, which a scene without a `[controller]` may have.
+    ///
+    /// # Errors
+    /// [`SceneError`] names the key.
+    pub fn check_loop_base(&self) -> Result<(), SceneError> {
+        match self.file.block.foundation {
+            Some(_) => Err(self.key("block.foundation").conflict(CONTROLLED)),
+            None => Ok(()),
+        }
+    }
 }
 
 #[cfg(test)]

@@ -80,6 +80,7 @@ fn controlled(name: &str, word: &str, scene: &Scene, key: &KeyPath) -> Result<La
     if block.initial_rotation_ratio != 0.0 || block.initial_velocity_ratio != 0.0 {
         return Err(key.clone().conflict("a controller calibrates itself at rest: the scene begins in motion"));
     }
+    scene.check_loop_base()?;
     let commanded = scene.devices.iter().zip(&scene.file.device).find(|(device, _)| device.takes_commands());
     let rigid = || DeviceTable { engagement: Some(EngagementName::Rigid), ..DeviceTable::of(Kind::ClutchedPair) };
     let device = commanded.map_or_else(rigid, |(_, table)| table.clone());

@@ -321,3 +321,10 @@ fn what_is_wrong_is_named_with_its_key_its_value_and_its_range() {
         assert!(message.starts_with("study.toml") && message.contains(expected), "{message}");
     }
 }
+
+#[test]
+fn a_controller_over_a_block_on_a_foundation_is_refused_before_the_first_run() {
+    let soft = "[[structure]]\nname = 'a'\nset = { 'block.foundation' = { vertical_frequency_hz = 8, damping_ratio = 0.3 } }\n";
+    let refused = refusal(&format!("{soft}[optimise]\nlaws = ['inerter', 'controller:resisting-predicted']"));
+    assert!(refused.ends_with("block.foundation: a controller follows a block on rigid ground"), "{refused}");
+}
