@@ -95,7 +95,8 @@ impl Run for LoopArguments {
             report.rows_from("monte_carlo", &columns(more), |row| {
                 let name = |&index: &usize| (index, desk.scene.devices[index].name.as_str());
                 let devices: Vec<_> = desk.pairs.iter().map(name).collect();
-                let some = |index, numbers| specimens(&desk, index, numbers, interrupt);
+                let unchecked = desk.unchecked();
+                let some = |index, numbers| specimens(&unchecked, index, numbers, interrupt);
                 let scattered = monte_carlo(&pool, &devices, (count, 1), some, row)?;
                 for (report, of) in reports.iter_mut().zip(scattered) {
                     report.summary.monte_carlo = Some(of.scatter);
@@ -113,6 +114,11 @@ impl Run for LoopArguments {
             report.picture(&numbered("loop", number), picture)?;
         }
         runs.iter().for_each(|run| report.print(run));
+        for run in &runs {
+            for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
+                report.note(format_args!("warning: {}: {warning}", run.device));
+            }
+        }
         report.finish(context)
     }
 }
@@ -190,6 +196,7 @@ fn sample(
     let loops = start.elapsed();
     let _trying = Progress::uncounted(super::TRYING);
     let some = count.get().min(SAMPLE * pool.current_num_threads());
+    let desk = desk.unchecked();
     let start = Instant::now();
     for &index in &desk.pairs {
         in_turn(pool, (some, 1), |numbers| specimens(&desk, index, numbers, interrupt), |_| Ok(()))?;

@@ -62,6 +62,19 @@ fn checks_say_nothing_of_a_fall() {
     assert!(run["checks"]["friction_needed"].as_f64().unwrap() < 0.9);
 }
 
+#[test]
+fn a_loop_warns_of_what_its_checks_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = ["--set", "checks.largest_force_ratio=1e-6"];
+    let output = sprag(&[&["loop", &scene("controller"), "--out", folder.path().to_str().unwrap()], &set[..]].concat());
+    let message = said(&output);
+    assert!(
+        message.contains("the force on the device's support reaches") && message.contains("the limit is 0.000001"),
+        "{message}"
+    );
+    assert!(summary(folder.path())["runs"][0]["checks"]["force_ratio"].as_f64().unwrap() > 1e-6);
+}
+
 /// The sensors of a falling block contradict each other, as the history shows; that is no fault of the encoder.
 #[test]
 fn a_fallen_block_is_no_fault_of_its_sensors() {

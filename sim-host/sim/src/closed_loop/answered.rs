@@ -15,6 +15,7 @@ use super::run::{Ending, TickObserver};
 use crate::accuracy::answer::{Comparable, answer};
 use crate::accuracy::{Answer, Compared};
 use crate::simulation::ErrorReport;
+use crate::simulation::demand::Demand;
 
 /// One closed loop, with what was seen of it.
 #[derive(Clone, Debug)]
@@ -25,6 +26,8 @@ pub struct Looped<T> {
     pub extremes: Extremes,
     /// Whoever looked at its ticks.
     pub ticks: T,
+    /// What its motion asks of toe, device and gears, where the scene has `[checks]`.
+    pub checks: Option<Demand>,
     /// α, rad.
     slenderness: f64,
 }
@@ -56,8 +59,14 @@ impl<'a> LoopTask<'a> {
     /// Runs the loop with `driver`, and shows its ticks to a new `T`.
     fn looped<T: TickObserver + Default>(&self, mut driver: Box<dyn Driver>) -> Result<Looped<T>, LoopFailure> {
         let (mut extremes, mut ticks) = (Extremes::default(), T::default());
-        let ending = self.run_with(&mut *driver, &mut (), &mut extremes, &mut ticks)?;
-        Ok(Looped { ending, extremes, ticks, slenderness: self.scene.block.slenderness() })
+        let (ending, extremes, checks) = match &self.scene.file.checks {
+            Some(table) => {
+                let (ending, extremes, checks) = self.checked(table, &mut *driver, &mut ticks)?;
+                (ending, extremes, Some(checks))
+            }
+            None => (self.run_with(&mut *driver, &mut (), &mut extremes, &mut ticks)?, extremes, None),
+        };
+        Ok(Looped { ending, extremes, ticks, checks, slenderness: self.scene.block.slenderness() })
     }
 
     /// Runs the loop as accurately as the scene asks. Gives the task as it was run, so that another controller can be put into the same

@@ -68,6 +68,14 @@ impl LoopScene {
         LoopTask { scene, ground, index, controller, suite, seed, closeness: None, interrupt }
     }
 
+    /// The same without `[checks]`, for loops of which nobody asks what their devices bear.
+    #[must_use]
+    pub fn unchecked(&self) -> LoopScene {
+        let mut desk = self.clone();
+        desk.scene.file.checks = None;
+        desk
+    }
+
     /// The scene as it was run, for a summary.
     pub fn resolved(&self) -> SceneFile {
         SceneFile { controller: Some(self.controller.clone()), ..self.scene.file.clone() }

@@ -1,10 +1,21 @@
 //! A closed loop as the run of its device: outcome and peaks, and what the scene's `[checks]` ask of forces, travel, teeth and coils.
 
-use super::run::{Tick, TickObserver};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::state::BlockState;
+use sprag_shared::observers::checks::Checks;
+
+use super::driver::Driver;
+use super::plant::Extremes;
+use super::run::{Ending, Looks, Tick, TickObserver};
 use super::{LoopFailure, LoopTask};
+use crate::ground_motion::Segment;
+use crate::scene::checks::ChecksTable;
 use crate::simulation::DeviceRun;
 use crate::simulation::coil_use::CoilUse;
+use crate::simulation::demand::Demand;
 use crate::simulation::device_run::Found;
+use crate::simulation::drive::Segmented;
 use crate::simulation::run::Task;
 
 /// The coils of both clutches, as the controller drives them.
@@ -20,7 +31,70 @@ impl TickObserver for Commanded {
     }
 }
 
+/// The coils, and whoever looks at the ticks.
+struct Both<'a>(Commanded, &'a mut dyn TickObserver);
+
+impl TickObserver for Both<'_> {
+    fn tick(&mut self, tick: &Tick) {
+        self.0.tick(tick);
+        self.1.tick(tick);
+    }
+
+    fn looks(&self) -> Looks {
+        self.1.looks()
+    }
+
+    fn overturned(&mut self) {
+        self.1.overturned();
+    }
+}
+
+/// What a study counts, and the checks.
+struct Checked(Extremes, Checks<f64>);
+
+impl Observer<f64> for Checked {
+    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.device_interval(output, interval);
+        self.1.device_interval(output, interval);
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.1.device_at_rest(output, interval);
+    }
+
+    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
+        self.0.event(event, time, state);
+        self.1.event(event, time, state);
+    }
+}
+
+impl Segmented for Checked {
+    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
+        self.0.segment(start, segment);
+        self.1.origin = start;
+    }
+}
+
 impl LoopTask<'_> {
+    fn coils(&self) -> Commanded {
+        Commanded { used: CoilUse::default(), period: self.clock().period }
+    }
+
+    /// Runs the loop with `driver`, shows it to `ticks`, and says what its device asks for, which `table` wants to know.
+    pub(super) fn checked(
+        &self,
+        table: &ChecksTable,
+        driver: &mut dyn Driver,
+        ticks: &mut dyn TickObserver,
+    ) -> Result<(Ending, Extremes, Demand), LoopFailure> {
+        let task = self.task();
+        let mut watched = Checked(Extremes::default(), task.checks(&task.loaded()?)?);
+        let mut seen = Both(self.coils(), ticks);
+        let ending = self.run_with(driver, &mut (), &mut watched, &mut seen)?;
+        let demand = Demand::of(&task, table, &watched.1, table.coil.map(|_| seen.0.used));
+        Ok((ending, watched.0, demand))
+    }
+
     /// Runs the loop by the law of its table. The coils take what the controller commands, also while the block stands with its clutches
     /// engaged.
     pub fn measured(&self) -> Result<DeviceRun, LoopFailure> {
@@ -31,7 +105,7 @@ impl LoopTask<'_> {
     pub fn measured_at(&self, interval: f64) -> Result<DeviceRun, LoopFailure> {
         let task = Task { interval, ..self.task() };
         let mut watchers = task.watchers(&task.loaded()?)?;
-        let mut coils = Commanded { used: CoilUse::default(), period: self.clock().period };
+        let mut coils = self.coils();
         let mut driver = self.driver()?;
         let ending = self.run_with(&mut *driver, &mut (), &mut watchers, &mut coils)?;
         watchers.asked.commanded(coils.used);

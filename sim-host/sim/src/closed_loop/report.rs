@@ -15,6 +15,7 @@ use super::run::{Ending, Tick};
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
 use crate::effect::number::true_minus;
+use crate::simulation::demand::Demand;
 use crate::simulation::scatter::Scatter;
 use crate::simulation::{DeviceRun, ErrorReport};
 
@@ -63,6 +64,9 @@ pub struct LoopSummary {
     pub unready: Option<String>,
     /// Faults, but for those of a fall.
     pub faults: Vec<FaultEntry>,
+    /// What the motion asks of toe, device and gears, where the scene has `[checks]`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub checks: Option<Demand>,
     /// How accurate it is, where that was asked for.
     #[serde(rename = "error_estimate", skip_serializing_if = "Option::is_none")]
     pub error: Option<ErrorReport>,
@@ -94,6 +98,7 @@ impl LoopReport {
     ) -> Result<LoopReport, LoopFailure> {
         let mut report = LoopReport::new(task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
         report.summary.error = error;
+        report.summary.checks = looped.checks;
         Ok(report)
     }
 
@@ -119,6 +124,7 @@ impl LoopReport {
             controller_state: state(ending.phase),
             unready: (!ending.began_ready()).then(|| state(ending.began)),
             faults: faults.collect(),
+            checks: None,
             error: None,
             monte_carlo: None,
         };

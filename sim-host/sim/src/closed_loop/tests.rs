@@ -10,10 +10,12 @@ use sprag_shared::motion::state::Phase;
 use super::decisions::Decisions;
 use super::driver::Driver;
 use super::plant::{Extremes, Whereabouts};
+use super::report::LoopReport;
 use super::run::{LoopError, Tick};
 use super::{LoopFailure, LoopScene};
 use crate::interrupt::Interrupt;
 use crate::scene::Scene;
+use crate::scene::checks::{ChecksTable, CoilTable};
 use crate::sensor::Truth;
 
 const PERIOD: f64 = 5e-4;
@@ -281,4 +283,32 @@ fn an_interrupt_ends_a_loop_at_the_next_tick() {
         assert!(matches!(ended, Err(LoopFailure::Loop(LoopError::Interrupted))), "{at}: {ended:?}");
         assert_eq!(driver.ticks, at);
     }
+}
+
+/// What the checks of a loop find is what they find of the run of its device, and looking changes nothing.
+#[test]
+fn a_loop_says_what_its_checks_found() {
+    let mut desk = scene(RIGID, SINE);
+    let interrupt = Interrupt::default();
+    let report = |desk: &LoopScene| {
+        let (task, error, looped) = desk.task(0, 1, &interrupt).answered().unwrap();
+        LoopReport::of_answer(&task, error, looped).unwrap()
+    };
+    let bare = report(&desk).summary;
+    assert!(bare.checks.is_none());
+    desk.scene.file.checks = Some(ChecksTable {
+        friction_coefficient: Some(0.01),
+        largest_force_ratio: Some(1e-6),
+        coil: Some(CoilTable { holding_power_w: 10.0, closing_energy_j: 1.0, largest_energy_j: None }),
+        ..ChecksTable::default()
+    });
+    let summary = report(&desk).summary;
+    assert_eq!((summary.peak_rotation, summary.impacts, summary.ticks), (bare.peak_rotation, bare.impacts, bare.ticks));
+    let checks = summary.checks.unwrap();
+    assert_eq!(Some(&checks), desk.task(0, 1, &interrupt).measured().unwrap().checks.as_ref());
+    assert!(checks.force_ratio.unwrap() > 0.0 && checks.coil_energy_j.unwrap() > 0.0, "{checks:?}");
+    for words in ["the toe would slide: ", "the force on the device's support reaches "] {
+        assert!(checks.warnings.iter().any(|warning| warning.starts_with(words)), "{checks:?}");
+    }
+    assert!(report(&desk.unchecked()).summary.checks.is_none());
 }

@@ -162,7 +162,7 @@ fn standing_friction(task: &Task<'_>, table: &ChecksTable) -> Option<f64> {
 
 impl Demand {
     /// Of what `checks` found about the device of `task`.
-    pub(super) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
+    pub(crate) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report);
         // A look may miss the instants at which V ≤ 0, which the search for its smallest value finds.
         let lifted = report.vertical.filter(|vertical| vertical.value <= S::ZERO).map(|vertical| vertical.time);

@@ -281,13 +281,20 @@ impl<'a> Task<'a> {
         (1.0 + self.device().added_mass.mass_ratio) / loaded.block.frequency_parameter_squared()
     }
 
+    /// Checks that look at all there is.
+    ///
+    /// # Errors
+    /// [`ParameterError`] where the mount has no lever.
+    pub fn checks<S: Real>(&self, loaded: &Structure) -> Result<Checks<S>, ParameterError> {
+        Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.device().account(loaded))
+    }
+
     /// Those who watch.
     pub fn watchers<S: Real>(&self, loaded: &Structure) -> Result<Watchers<'a, S>, Failure> {
         let stays_engaged = self.device().device.kind == DeviceKind::Inerter;
         let segments = self.ground.horizontal.segments();
         let all = self.scene.file.checks.is_some();
-        let checks = || Checks::new(&loaded.block, self.scene.geometry(), &loaded.device.mount, &self.device().account(loaded));
-        let checks = if all || self.reports { Some(checks()?) } else { None };
+        let checks = if all || self.reports { Some(self.checks(loaded)?) } else { None };
         Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments).carried(self.carried()),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
