@@ -185,13 +185,11 @@ impl Demand {
             located: Located::of(task, &report),
             coils,
         };
-        let shows_slide = task.device().device.kind == DeviceKind::None && task.scene.geometry() == Geometry::Full;
-        demand.warn(table, &Impulses::of(&report), shows_slide);
+        demand.warn(task, table, &Impulses::of(&report));
         demand
     }
 
-    /// `shows_slide`: another key shows what such a block does where it would slide.
-    fn warn(&mut self, table: &ChecksTable, impulses: &Impulses, shows_slide: bool) {
+    fn warn(&mut self, task: &Task<'_>, table: &ChecksTable, impulses: &Impulses) {
         if let Some(allowed) = table.gear.map(|gear| gear.allowable_stress_mpa) {
             for (mesh, stress) in self.tooth_stress_mpa.iter().enumerate().filter(|(_, stress)| **stress > allowed) {
                 self.warnings.push(format!("teeth of mesh {} are overloaded: {stress:.1} MPa, {allowed} MPa allowed", mesh + 1));
@@ -210,6 +208,8 @@ impl Demand {
             warn(format!("the toe would slide: a coefficient of friction of {needed:.3} is needed, {available} is there"));
         }
         impulses.warnings(table.friction_coefficient).into_iter().for_each(&mut warn);
+        // Another key shows what such a block does where it would slide.
+        let shows_slide = task.device().device.kind == DeviceKind::None && task.scene.geometry() == Geometry::Full;
         let available = table.friction_coefficient.filter(|_| shows_slide);
         let needed = [self.friction_needed, impulses.impact_friction_needed].into_iter().flatten().reduce(f64::max);
         if let Some(friction) = available.filter(|available| needed.is_some_and(|needed| needed > *available)) {
@@ -223,7 +223,8 @@ impl Demand {
         if let (Some(limit), Some(stroke)) = (table.largest_stroke_m, self.stroke_m)
             && stroke > limit
         {
-            warn(format!("the terminals travel {stroke:.4} m; the limit is {limit} m"));
+            let against = if task.carried() { " against the ground, without what their support moves" } else { "" };
+            warn(format!("the terminals travel {stroke:.4} m{against}; the limit is {limit} m"));
         }
         if let (Some(limit), Some(energy)) = (table.coil.and_then(|coil| coil.largest_energy_j), self.coil_energy_j)
             && energy > limit

@@ -76,6 +76,17 @@ fn a_limit_of_the_force_is_one_on_the_support() {
     assert!(checks.warnings.iter().any(|warning| warning.contains("0.0400") && warning.contains("limit is 0.03")), "{checks:?}");
 }
 
+/// The travel is that of the block, whatever its support does.
+#[test]
+fn a_warning_of_the_stroke_on_a_support_of_its_own_says_what_is_not_in_it() {
+    for (support, against) in [("", false), ("\nsupport_amplification = 1.2", true)] {
+        let checks =
+            runs(5.0, &format!("kind = 'inerter'{support}"), "[checks]\nlargest_stroke_m = 1e-6").remove(0).checks.unwrap();
+        let warning = checks.warnings.iter().find(|warning| warning.starts_with("the terminals travel ")).unwrap();
+        assert_eq!(warning.contains(" m against the ground, without what their support moves; the limit"), against, "{warning}");
+    }
+}
+
 /// Plates behind a stiff spring pass no more than their capacity, at a large tolerance too.
 #[test]
 fn a_spring_passes_no_more_than_its_plates() {

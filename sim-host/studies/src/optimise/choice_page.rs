@@ -353,6 +353,11 @@ fn left_out_of(device: &DeviceTable) -> Vec<String> {
     if device.rack.is_none() && device.flywheel.is_none() {
         lines.push("No friction in rack and bearings.".to_owned());
     }
+    if device.support_key().is_some() {
+        lines.push(
+            "Strokes are travels of the block against the ground: what the support moves on its own is not in them.".to_owned(),
+        );
+    }
     if device.weight.is_none() {
         lines.push("The device's own weight rests on its support, not on the block.".to_owned());
     }

@@ -219,6 +219,8 @@ fn the_choice_denies_nothing_that_its_scene_has() {
         assert!(!found.contains(words) && found.contains(instead) && !found.contains("rigid"), "{set}: {found}");
         assert!(denied.iter().filter(|other| **other != words).all(|other| found.contains(other)), "{set}: {found}");
     }
+    let of_support = "Strokes are travels of the block against the ground";
+    assert!(lines("'device.2.support_amplification' = 1.2").contains(of_support) && !plain.contains(of_support), "{plain}");
 }
 
 #[test]
