@@ -1,5 +1,7 @@
 //! `design.md`: the page that a designer hands on: a table, the reasons, the limits.
 
+use sprag_shared::structure::block::GRAVITY;
+
 use super::basis::{DISC_THICKNESS_RATIO, STEEL_KG_M3, UNDERCUT_TEETH};
 use super::late::DELAYS_S;
 use super::sensors::SHARE;
@@ -211,9 +213,34 @@ fn built(problem: &Problem<'_>, list: &PartsList) -> String {
     text + "\n"
 }
 
+/// What `list` needs beyond the limits of the scene's `[checks]`, in a line each.
+fn beyond_checks(problem: &Problem<'_>, list: &PartsList) -> Vec<String> {
+    let Some(checks) = &problem.scene.file.checks else { return Vec::new() };
+    let force_n = checks.largest_force_ratio.map(|ratio| ratio * problem.mass_kg() * GRAVITY);
+    let energy_j = checks.coil.and_then(|coil| coil.largest_energy_j);
+    let beyond = |(part, unit, key, limit): (&str, &str, &str, Option<f64>)| {
+        let item = list.items.iter().find(|item| (item.part, item.unit) == (part, unit))?;
+        let (needed, limit) = item.needed.zip(limit).filter(|(needed, limit)| needed > limit)?;
+        let [needed, allowed] = [needed, limit].map(figures);
+        Some(format!(
+            "{}, {part}: {} of {needed} {unit} is more than the {allowed} {unit} that {key} of the scene allows.",
+            list.device, item.quantity
+        ))
+    };
+    [
+        ("support", "N", "checks.largest_force_ratio", force_n),
+        ("rack", "m", "checks.largest_stroke_m", checks.largest_stroke_m),
+        ("coils, both", "J", "checks.coil.largest_energy_j", energy_j),
+    ]
+    .into_iter()
+    .filter_map(beyond)
+    .collect()
+}
+
 fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
     let mut text = "\n## Limits\n\n".to_owned();
     let mut limit = |line: String| text += &format!("- {line}\n");
+    findings.lists.iter().flat_map(|list| beyond_checks(problem, list)).for_each(&mut limit);
     if problem.basis.teeth < UNDERCUT_TEETH {
         limit(format!("A pinion of {} teeth is undercut: it needs a profile shift.", problem.basis.teeth));
     }
@@ -251,7 +278,7 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
     }
     let of_sensors = findings.lists.iter().filter(|list| list.sensors.is_some());
     if let Some(jump) = of_sensors.filter_map(|list| list.jump.as_ref()).map(|jump| jump.value).reduce(f64::max) {
-        let shock = std::f64::consts::FRAC_PI_2 * jump / CONTACT_S / sprag_shared::structure::block::GRAVITY;
+        let shock = std::f64::consts::FRAC_PI_2 * jump / CONTACT_S / GRAVITY;
         limit(format!(
             "The ranges of sensors do not cover the shock of an impact ({} g at the centre of mass if the contact lasts 1 ms): readings saturate for so long.",
             figures(shock)

@@ -228,3 +228,21 @@ fn a_device_without_a_list_leaves_the_others_theirs() {
     let refused = solve(&["ground.0.amplitude_ratio=0.5"]).unwrap_err().to_string();
     assert!(refused.starts_with("light: no motion lifts the block"), "{refused}");
 }
+
+#[test]
+fn a_demand_beyond_the_limits_of_the_scene_is_named() {
+    let keys = ["checks.largest_force_ratio", "checks.largest_stroke_m", "checks.coil.largest_energy_j"];
+    let named = |limit: &str| {
+        let checks = format!(
+            "checks={{ largest_force_ratio = {limit}, largest_stroke_m = {limit}, \
+             coil = {{ holding_power_w = 10.0, largest_energy_j = {limit} }} }}"
+        );
+        let (list, page) = designed(&pier("clutched-pair", CENTRE, &[&checks]));
+        let force = figures(item(&list, "support", "force").unwrap().needed.unwrap());
+        (
+            keys.map(|key| page.contains(&format!("that {key} of the scene allows"))),
+            page.contains(&format!("force of {force} N is more")),
+        )
+    };
+    assert_eq!((named("1e-3"), named("1e3")), (([true; 3], true), ([false; 3], false)));
+}
