@@ -39,8 +39,14 @@ pub struct BlockState<S> {
     pub impacts: u32,
 }
 
-/// Relative distance from [`Limits::overturned`] within which a motion is at its end.
-const AT_THE_END: f64 = 1e-9;
+/// Relative distance from an angle within which a motion is there, but for rounding.
+const NEARLY_THERE: f64 = 1e-9;
+
+/// The angle from which on a motion has reached `angle` (rad, above 0), but for rounding: where a clutch switches there, rounding would decide
+/// whether it does so just before.
+pub(crate) fn as_good_as<S: Real>(angle: S) -> S {
+    angle * (S::ONE - S::of(NEARLY_THERE).larger(S::of(16.0) * S::EPSILON))
+}
 
 impl<S: Real> BlockState<S> {
     /// Level that θ passes on its way to `rotation`, and the sign of θ less it before: 0 at an impact, or the limit of overturning.
@@ -74,11 +80,9 @@ impl<S: Real> BlockState<S> {
         self.side == self.direction && self.side.times(self.rotation) >= angle
     }
 
-    /// Whether this motion has ended as it reaches θ = `rotation` (rad), but for rounding: where a lever is zero there, rounding would decide
-    /// whether its clutch switches just before.
+    /// Whether this motion has ended as it reaches θ = `rotation` (rad), but for rounding.
     pub(super) fn ends_at(&self, rotation: S, limits: &Limits<S>) -> bool {
-        let margin = S::of(AT_THE_END).larger(S::of(16.0) * S::EPSILON);
-        self.side == self.direction && self.side.times(rotation) >= limits.overturned * (S::ONE - margin)
+        self.side == self.direction && self.side.times(rotation) >= as_good_as(limits.overturned)
     }
 
     /// Ends a motion at `time` (s), on ground that has come to rest: a block that moves outward at `no_return` (rad,

@@ -18,7 +18,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
-use crate::motion::state::BlockState;
+use crate::motion::state::{BlockState, as_good_as};
 use crate::observers::ledger::Account;
 use crate::structure::COUNTED_SPEED;
 use crate::structure::block::{Block, Geometry};
@@ -121,9 +121,9 @@ impl<S: Real> Checks<S> {
         [friction, -vertical, weigh(snapshot.device.force[0]), weigh(snapshot.device.force[1]), support]
     }
 
-    /// s θ − α.
+    /// s θ − α, where a free block's θ̈ is 0 and clutches switch.
     fn beyond(&self, side: Sign, rotation: S) -> S {
-        side.times(rotation) - self.toe.slenderness
+        side.times(rotation) - as_good_as(self.toe.slenderness)
     }
 
     /// What has been found at the end of an interval beyond α up to where |θ| passed it, in case the block never comes back.

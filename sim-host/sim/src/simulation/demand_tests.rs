@@ -157,6 +157,26 @@ fn a_block_that_slides_before_it_rocks_is_warned_of() {
     assert_eq!(runs(0.5, "kind = 'inerter'", "[checks]").remove(0).checks.unwrap().friction_needed, None);
 }
 
+/// On still ground the clutch of a block that falls closes where θ̈ is 0, at |θ| = α: no part of its blow belongs to what was before the fall.
+#[test]
+fn rounding_does_not_decide_whether_a_clutch_closes_before_the_fall() {
+    for amplitude in [1.5, 1.55, 1.58, 1.6, 1.62] {
+        let text = format!(
+            "block = {{ size_m = 1.167, slenderness_deg = 49.326, inertia_ratio = 1.976, restitution = 0.768 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 1.55, clutch = {{ stiffness_ratio = 5272.82, damping_ratio = 1.5 }} }}]
+            ground = [{{ motion = 'rectangular', amplitude_ratio = {amplitude}, duration_ratio = 1.409 }}]
+            vertical = [{{ motion = 'sine', amplitude_g = -0.288, frequency_ratio = 3.688 }}]
+            run = {{ free_time_ratio = 20 }}
+            [checks]"
+        );
+        let run = runs_of(&text).remove(0);
+        let checks = run.checks.unwrap();
+        let (force, friction) = (checks.force_ratio.unwrap(), checks.friction_needed.unwrap());
+        assert_eq!(run.outcome, Outcome::OverturnedWithoutImpact);
+        assert!(force < 0.7 && friction < 1.6 && run.peak_force_ratio.unwrap() > 7.0, "{amplitude}: {force} {friction}");
+    }
+}
+
 /// A block of 2 m and 10° that friction of `device` holds at `rotation_ratio` of α under `ground`.
 fn held(rotation_ratio: f64, device: &str, ground: &str, more: &str) -> DeviceRun {
     let text = format!(
