@@ -73,7 +73,7 @@ class Gyroscope(Table):
     full_scale_deg_s
         Full scale either way; 0 (no limit); from 0 to 100000.
     rate_hz
-        How often it is read; 0 (continuously), or from 1; from 0 to 100000.
+        How often it is read; 0 (continuously), or from 5; from 0 to 100000.
     synchronous
         Whether it is read at whole periods instead of on a clock of its own.
     jitter_s
