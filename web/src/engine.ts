@@ -74,7 +74,7 @@ export interface Response {
   /** Forces of the first and second flywheel over the block's weight. */
   firstForceRatio: Float64Array;
   secondForceRatio: Float64Array;
-  /** 0 none, 1 first, 2 second. */
+  /** 0 none, 1 first, 2 second, 3 both. */
   engaged: Uint8Array;
   impactsS: Float64Array;
 }

@@ -41,6 +41,9 @@ test("spans begin and end where the engaged flywheel changes", async () => {
     [4, 4],
   ]);
   assert.deepEqual(spans(timeS, Uint8Array.of(0, 1, 1, 2, 1), 2), [[3, 4]]);
+  // 3 is both.
+  assert.deepEqual(spans(timeS, Uint8Array.of(1, 3, 2, 0, 0), 1), [[0, 2]]);
+  assert.deepEqual(spans(timeS, Uint8Array.of(1, 3, 2, 0, 0), 2), [[1, 3]]);
 });
 
 test("an address gives its scene back, and refuses what was cut off, changed or blown up", async () => {
@@ -99,8 +102,8 @@ test("steps go to the next and the previous event and stop at the ends", async (
   const { eventFrom, eventsOf } = await load("block/events");
   const events = eventsOf({
     impactsS: Float64Array.of(1, 2),
-    timeS: Float64Array.of(0, 1.5, 3),
-    engaged: Uint8Array.of(0, 2, 2),
+    timeS: Float64Array.of(0, 1.5, 2.5, 3),
+    engaged: Uint8Array.of(0, 2, 3, 3),
   });
   assert.deepEqual(
     events.map(({ timeS, kind }) => [timeS, kind]),
@@ -108,11 +111,12 @@ test("steps go to the next and the previous event and stop at the ends", async (
       [1, "impact"],
       [1.5, 2],
       [2, "impact"],
+      [2.5, 3],
     ],
   );
   assert.equal(eventFrom(events, 1, 1).timeS, 1.5);
   assert.equal(eventFrom(events, 1.5, -1).timeS, 1);
-  assert.equal(eventFrom(events, 2, 1), null);
+  assert.equal(eventFrom(events, 2.5, 1), null);
   assert.equal(eventFrom(events, 1, -1), null);
 });
 

@@ -20,7 +20,7 @@ pub struct Sample {
     pub acceleration_rad_s2: f64,
     /// Inerter force over block weight, by flywheel: first, second (dimensionless).
     pub force_ratio: [f64; 2],
-    /// The flywheel that moves with the block: 0 for none, 1 for the first, 2 for the second.
+    /// The flywheels that move with the block, as [`clutches`] counts.
     pub engaged: u8,
     /// Displacement of the base over the ground (m); 0 where it cannot slide.
     pub displacement_m: f64,
@@ -31,6 +31,11 @@ impl Sample {
     pub fn transferred_force_ratio(&self) -> f64 {
         self.force_ratio[0] + self.force_ratio[1]
     }
+}
+
+/// Which clutches are engaged, as a number: 0 none, 1 the first, 2 the second, 3 both.
+pub fn clutches(engaged: [bool; 2]) -> u8 {
+    u8::from(engaged[0]) + 2 * u8::from(engaged[1])
 }
 
 /// The response of a block with one device to one ground motion.
@@ -53,7 +58,7 @@ pub struct History {
 }
 
 impl History {
-    /// Intervals in which a flywheel was engaged: start (s), end (s), flywheel (1 or 2), in time order.
+    /// Intervals in which a flywheel was engaged: start (s), end (s), which ([`Sample::engaged`]), in time order.
     ///
     /// A state holds from its sample up to the next one, so an interval ends where the next state begins. Intervals of
     /// zero length are left out.
@@ -72,7 +77,7 @@ impl History {
         intervals
     }
 
-    /// Whether the engaged flywheel changes during the response, which only a clutch can cause.
+    /// Whether the engaged flywheels change during the response, which only a clutch can cause.
     ///
     /// An inerter without a clutch reports one constant state.
     pub fn is_clutched(&self) -> bool {

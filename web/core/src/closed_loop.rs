@@ -9,10 +9,11 @@ use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_sim::closed_loop::failing::{ALL, Injected};
 use sprag_sim::closed_loop::plant::Extremes;
-use sprag_sim::closed_loop::report::{LoopReport, clutches, write_history};
+use sprag_sim::closed_loop::report::{LoopReport, write_history};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::digest::of_decisions;
+use sprag_sim::history::clutches;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 

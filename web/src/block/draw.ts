@@ -142,9 +142,9 @@ function drawRack(context: CanvasRenderingContext2D, shape: Shape, atM: number, 
   context.lineWidth = 0.6 * thick;
   line(context, pinX, atM, tieX, tieY);
   drawTeeth(context, left + u, pinX, atM, thick, pixelM);
-  flywheel(context, shape, firstX, atM + pinionM, pose.firstRad, pose.engaged === 1 || shape.flywheels === 1, 1, colours, pixelM);
+  flywheel(context, shape, firstX, atM + pinionM, pose.firstRad, (pose.engaged & 1) !== 0 || shape.flywheels === 1, 1, colours, pixelM);
   if (shape.flywheels === 2) {
-    flywheel(context, shape, near, atM - pinionM, -pose.secondRad, pose.engaged === 2, 2, colours, pixelM);
+    flywheel(context, shape, near, atM - pinionM, -pose.secondRad, (pose.engaged & 2) !== 0, 2, colours, pixelM);
   }
 }
 
@@ -161,7 +161,7 @@ function drawCornerRack(context: CanvasRenderingContext2D, shape: Shape, pose: P
   context.lineWidth = 0.6 * thick;
   line(context, rackX, y, x, y);
   for (let k = 0; k < shape.flywheels; k++) {
-    const engaged = lifted && (shape.flywheels === 1 || pose.engaged === k + 1);
+    const engaged = lifted && (shape.flywheels === 1 || (pose.engaged & (k + 1)) !== 0);
     const angle = lifted ? (k === 0 ? pose.firstRad : pose.secondRad) : 0;
     const centre = side * (b + 0.13 * h + pinionM + k * 0.2 * flywheelM);
     flywheel(context, shape, centre, flywheelM * 1.05 + k * 0.75 * flywheelM, angle, engaged, k === 0 ? 1 : 2, colours, pixelM);

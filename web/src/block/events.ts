@@ -5,15 +5,15 @@ import { stretches } from "../stretches";
 /** An event of a response. */
 export interface Event {
   timeS: number;
-  /** An impact, or the flywheel that is engaged from then on (0 none). */
-  kind: "impact" | 0 | 1 | 2;
+  /** An impact, or the flywheels that are engaged from then on (0 none, 3 both). */
+  kind: "impact" | 0 | 1 | 2 | 3;
 }
 
 /** The events of a response. */
 export function eventsOf(response: Response): Event[] {
   const events: Event[] = Array.from(response.impactsS, (timeS) => ({ timeS, kind: "impact" as const }));
   for (const { from, value } of stretches(response.timeS, response.engaged).slice(1)) {
-    events.push({ timeS: from, kind: value === 1 ? 1 : value === 2 ? 2 : 0 });
+    events.push({ timeS: from, kind: value === 1 || value === 2 || value === 3 ? value : 0 });
   }
   return events.sort((a, b) => a.timeS - b.timeS);
 }

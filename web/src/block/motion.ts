@@ -9,7 +9,7 @@ export interface Pose {
   /** Angles of the first and second flywheel. */
   firstRad: number;
   secondRad: number;
-  /** 0 none, 1 first, 2 second. */
+  /** 0 none, 1 first, 2 second, 3 both. */
   engaged: number;
   /** Whether the block is lost. */
   overturned: boolean;
@@ -61,7 +61,7 @@ function deviceMotion(shape: Shape, response: Response, p: number, alpha: number
     const turn = (now - before) / shape.pinionM;
     const dt = (timeS[i] ?? 0) - (timeS[i - 1] ?? 0);
     for (const [k, angles] of [firstRad, secondRad].entries()) {
-      const held = shape.flywheels === 1 ? k === 0 : engaged[i - 1] === k + 1;
+      const held = shape.flywheels === 1 ? k === 0 : ((engaged[i - 1] ?? 0) & (k + 1)) !== 0;
       // A flywheel that is let go is drawn as coasting without loss; the core does not hand over its speed.
       const step = held ? turn : shape.coasts ? (speeds[k] ?? 0) * dt : 0;
       angles[i] = (angles[i - 1] ?? 0) + step;

@@ -40,5 +40,6 @@ export function align(curves: Samples[]): [number[], ...(number | null)[][]] {
 
 /** Spans of time in which a flywheel is engaged. */
 export function spans(timeS: Float64Array, engaged: Uint8Array, flywheel: 1 | 2): [from: number, to: number][] {
-  return stretches(timeS, engaged).flatMap(({ from, to, value }): [number, number][] => (value === flywheel ? [[from, to]] : []));
+  const own = engaged.map((flywheels) => flywheels & flywheel);
+  return stretches(timeS, own).flatMap(({ from, to, value }): [number, number][] => (value === flywheel ? [[from, to]] : []));
 }

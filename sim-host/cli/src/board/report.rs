@@ -6,7 +6,8 @@ use serde::Serialize;
 use sprag_report::text_table::TextTable;
 use sprag_shared::link::TickReport;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_sim::closed_loop::report::{LoopSummary, clutches};
+use sprag_sim::closed_loop::report::LoopSummary;
+use sprag_sim::history::clutches;
 
 use super::driver::DeviceTick;
 

@@ -25,7 +25,7 @@ pub(super) struct DeviceTrace {
     pub force: Vec<(f64, f64)>,
     /// Impact times.
     pub impacts: Vec<f64>,
-    /// Engaged intervals and their flywheel; empty without a clutch.
+    /// Engaged intervals and their flywheels (1, 2, 3 both); empty without a clutch.
     pub engagements: Vec<(f64, f64, u8)>,
     /// Where the curve of an overturning block ends in the panel.
     pub overturn: Option<(f64, f64)>,

@@ -24,7 +24,7 @@ const NOTE_FONT_PX: f64 = 10.5;
 pub(super) fn device_keys(traces: &[DeviceTrace]) -> [Vec<LegendEntry>; 2] {
     let mut marks = Vec::new();
     for (index, name) in ["first flywheel engaged", "second flywheel engaged"].into_iter().enumerate() {
-        let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(_, _, flywheel)| usize::from(*flywheel != 1) == index);
+        let shown = |trace: &DeviceTrace| trace.engagements.iter().any(|(.., engaged)| (usize::from(*engaged) >> index) & 1 == 1);
         if traces.iter().any(shown) {
             marks.push((Swatch::Tint(FLYWHEEL_TINTS[index]), name.to_owned()));
         }
@@ -49,7 +49,7 @@ fn impact(x: i32, y: i32, side: i32) -> String {
     format!("M{x} {y}l{} {}h{}z", -units(2.2), side * units(5.0), units(4.4))
 }
 
-/// Appends tints over the intervals in which a flywheel is engaged.
+/// Appends tints over the intervals in which a flywheel is engaged; while both are, the first has the upper half and the second the lower.
 ///
 /// One clutched device shades the whole height. Several share it in lanes, top to bottom, each with a bar in the
 /// device's colour right of the frame.
@@ -60,17 +60,19 @@ pub(super) fn write_shading(svg: &mut String, panel: &Panel<'_>, traces: &[Devic
         let top = units(panel.top_px + lane as f64 * lane_px);
         let height = units(panel.top_px + (lane + 1) as f64 * lane_px) - top;
         let least = if trace.engagements.len() > MOST_INTERVALS { LEAST_WIDTH_PX } else { 0.0 };
-        let mut bars = [Vec::new(), Vec::new()];
-        for &(from, to, flywheel) in &trace.engagements {
+        let mut bars = [const { Vec::new() }; 4];
+        for &(from, to, engaged) in &trace.engagements {
             let left = units(panel.position_px((from, 0.0)).0);
             let width = units(panel.position_px((to, 0.0)).0) - left;
             if width > 0 && width >= units(least) {
-                bars[usize::from(flywheel != 1)].push((left, width));
+                bars[usize::from(engaged & 3)].push((left, width));
             }
         }
-        for (bars, tint) in bars.iter().zip(FLYWHEEL_TINTS) {
-            write_bars(svg, bars, (top, height), tint);
-        }
+        let ([_, one, other, both], [first, second], half) = (&bars, FLYWHEEL_TINTS, height / 2);
+        write_bars(svg, one, (top, height), first);
+        write_bars(svg, other, (top, height), second);
+        write_bars(svg, both, (top, half), first);
+        write_bars(svg, both, (top + half, height - half), second);
         if clutched.len() > 1 {
             let bar = (units(LANE_BAR_PX), height - units(2.0));
             write_rect(svg, (units(panel.right_px() + 3.0), top + units(1.0)), bar, trace.look.colour);

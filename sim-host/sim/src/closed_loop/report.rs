@@ -15,6 +15,7 @@ use super::run::{Ending, Tick};
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
 use crate::effect::number::true_minus;
+use crate::history::clutches;
 use crate::simulation::demand::Demand;
 use crate::simulation::scatter::Scatter;
 use crate::simulation::{DeviceRun, ErrorReport};
@@ -198,11 +199,6 @@ impl fmt::Display for LoopSummary {
         }
         Ok(())
     }
-}
-
-/// Which clutches are engaged, as a number: 0 none, 1 the first, 2 the second, 3 both.
-pub fn clutches(engaged: [bool; 2]) -> u8 {
-    u8::from(engaged[0]) + 2 * u8::from(engaged[1])
 }
 
 /// Columns of the history.

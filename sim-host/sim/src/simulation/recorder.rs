@@ -10,7 +10,7 @@ use sprag_shared::structure::block::GRAVITY;
 
 use super::drive::Segmented;
 use crate::ground_motion::Segment;
-use crate::history::Sample;
+use crate::history::{Sample, clutches};
 
 /// Samples at a regular interval, and on both sides of every event at which something may jump.
 #[derive(Debug)]
@@ -100,11 +100,7 @@ impl<'a> Recorder<'a> {
             velocity_rad_s: motion.velocity.to_f64(),
             acceleration_rad_s2: motion.acceleration.to_f64(),
             force_ratio: [scaled(force[0]), scaled(force[1])],
-            engaged: match engaged {
-                [false, false] => 0,
-                [true, _] => 1,
-                [false, true] => 2,
-            },
+            engaged: clutches(engaged),
             displacement_m: if self.slides { output.displacement(local).to_f64() } else { 0.0 },
         }
     }
@@ -232,5 +228,35 @@ impl Segmented for Recorder<'_> {
             self.flush();
             self.broken = true;
         }
+    }
+}
+
+#[cfg(all(test, feature = "effects"))]
+mod tests {
+    use super::super::runs_of;
+
+    /// Releases that come late, so that the next flywheel is engaged before the last one is let go.
+    #[test]
+    fn both_flywheels_are_engaged_where_both_push_and_a_mirrored_motion_swaps_them() {
+        let [one, other] = [3.0, -3.0].map(|amplitude| {
+            runs_of(&format!(
+                "block = {{ size_m = 2.0, slenderness_deg = 10.0, restitution = 0.85 }}
+                device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid', actuation = {{ release_delay_s = 0.2 }} }}]
+                ground = [{{ motion = 'sine', amplitude_ratio = {amplitude}, frequency_ratio = 9.0 }}]
+                run = {{ free_time_s = 2.0 }}"
+            ))
+            .remove(0)
+        });
+        let samples = &one.history.samples;
+        let both = |force: [f64; 2]| force[0] != 0.0 && force[1] != 0.0;
+        assert!(samples.iter().filter(|sample| both(sample.force_ratio)).count() > 100);
+        assert!(samples.iter().all(|sample| !both(sample.force_ratio) || sample.engaged == 3));
+        let swapped = |engaged: u8| [0, 2, 1, 3][usize::from(engaged)];
+        assert!(
+            samples.iter().map(|sample| swapped(sample.engaged)).eq(other.history.samples.iter().map(|sample| sample.engaged))
+        );
+        assert_eq!(one.clutch_switches, other.clutch_switches);
+        let codes: Vec<u8> = one.history.engagements().into_iter().map(|(.., engaged)| engaged).collect();
+        assert!(codes.windows(3).any(|codes| matches!(codes, [1, 3, 2] | [2, 3, 1])), "{codes:?}");
     }
 }

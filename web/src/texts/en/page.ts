@@ -58,7 +58,7 @@ export const page = {
     time: "Time",
     seconds: (time: number) => `${time.toFixed(2)} seconds`,
     sound: "Sound of impacts",
-    event: (device: string, kind: "impact" | 0 | 1 | 2, time: number) => {
+    event: (device: string, kind: "impact" | 0 | 1 | 2 | 3, time: number) => {
       const what =
         kind === "impact"
           ? "impact"
@@ -66,7 +66,9 @@ export const page = {
             ? "no flywheel engaged"
             : kind === 1
               ? "first flywheel engaged"
-              : "second flywheel engaged";
+              : kind === 2
+                ? "second flywheel engaged"
+                : "both flywheels engaged";
       return `${device}: ${what} at ${time.toFixed(4)} s`;
     },
     noEvent: (device: string) => `${device}: no event further on`,
