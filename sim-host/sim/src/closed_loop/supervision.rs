@@ -79,8 +79,9 @@ pub fn supervision(
         SensorLimits {
             stale_time: larger(default.stale_time, missing(&sensor.sampling, period)),
             stuck_time: stuck,
-            // Where noise does not move a reading by a step, equal readings say nothing.
-            stuck_time_moving: if sensor.resolution > 0.0 { stuck } else { default.stuck_time_moving },
+            // Where noise does not move a reading by a step, or there is none, equal readings say nothing: a block that has just stopped
+            // counts as moving for a while, as one does whose gyroscope has a bias.
+            stuck_time_moving: if sensor.resolution > 0.0 || noise(sensor) == 0.0 { stuck } else { default.stuck_time_moving },
             full_scale: if sensor.full_scale > 0.0 { (0.98 * sensor.full_scale) as f32 } else { 1e6 },
             saturation_time: larger(default.saturation_time, shaken),
         }
@@ -226,6 +227,22 @@ mod tests {
         let slowest = "block_accelerometer = { bandwidth_hz = 0.1, noise_density_ug_rthz = 10000, resolution_mg = 0.2 }";
         assert_eq!(monitor(slowest).block_accelerometer.stuck_time, LONGEST_WAIT);
         assert!(desk(slowest).task(0, 1, &Interrupt::default()).driver().is_ok());
+    }
+
+    /// Dry friction holds a block in mid-swing, where its gyroscope says 0 in every bit; a bias that is not known yet repeats at rest.
+    #[test]
+    fn a_sensor_without_noise_may_repeat_itself() {
+        let held = desk_of(
+            "slenderness_deg = 12.8, restitution = 0.35",
+            "rack = { dry_friction_ratio = 0.042 }",
+            "amplitude_ratio = 1.294, frequency_ratio = 3.0",
+            "law = 'passive'",
+        );
+        assert_eq!(faults(&held, 1), 0);
+        assert_eq!(faults(&desk("gyroscope = { bias_deg_s = 3.0 }"), 1), 0);
+        // With noise, however little, no two readings are equal.
+        let noisy = monitor("gyroscope = { noise_density_deg_s_rthz = 0.001 }");
+        assert_eq!((noisy.gyroscope.stuck_time_moving, noisy.block_accelerometer.stuck_time_moving), (0.004, 0.0));
     }
 
     #[test]
