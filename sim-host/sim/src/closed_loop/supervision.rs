@@ -241,7 +241,7 @@ mod tests {
         assert_eq!(faults(&held, 1), 0);
         assert_eq!(faults(&desk("gyroscope = { bias_deg_s = 3.0 }"), 1), 0);
         // With noise, however little, no two readings are equal.
-        let noisy = monitor("gyroscope = { noise_density_deg_s_rthz = 0.001 }");
+        let noisy = monitor("gyroscope = { noise_density_deg_s_rthz = 0.001, bandwidth_hz = 100.0 }");
         assert_eq!((noisy.gyroscope.stuck_time_moving, noisy.block_accelerometer.stuck_time_moving), (0.004, 0.0));
     }
 
