@@ -99,6 +99,12 @@ pub fn supervision(
     let sensor_delay = (2.0 * gyroscope_delay + 2.0 * period + 2.0 * encoder_delay).min(LATEST);
     // So long that a window has seen how fast that moved which a reading brings.
     let window = gyroscope_delay.max(between_readings(&gyroscope.sampling, period)).max(encoder_delay).min(LATEST);
+    // When a block is stopped at once, at some 2pα, its last counts may come so long after the last rate, too late for `sensor_delay` to
+    // allow for them. Of a slower encoder no more: that would hide one that is stuck.
+    let [settling, _, gyroscope_latency] = gyroscope.sampling.delays(gyroscope.bandwidth);
+    let trailing =
+        (period + encoder_delay - RINGING * settling - gyroscope_latency).clamp(0.0, monitor.contradiction_time.into());
+    let trailing_counts = counts * 2.0 * block.frequency_parameter() * block.slenderness() * trailing;
     let settled = |sensor: &Inertial| {
         let [ringing, _, latency] = sensor.sampling.delays(sensor.bandwidth);
         RINGING * ringing + between_readings(&sensor.sampling, period) + latency
@@ -132,6 +138,7 @@ pub fn supervision(
                 settled(block_accelerometer) + settled(ground_accelerometer),
             ),
             rest_tolerance: larger(monitor.rest_tolerance, PEAK * noise(block_accelerometer).max(noise(ground_accelerometer))),
+            count_tolerance: (f64::from(monitor.count_tolerance) + trailing_counts) as f32,
             rate_tolerance: larger(monitor.rate_tolerance, PEAK * noise(gyroscope)),
             sensor_delay: larger(monitor.sensor_delay, sensor_delay),
             moving_rate: larger(monitor.moving_rate, PEAK * noise(gyroscope)),
@@ -320,6 +327,32 @@ mod tests {
         for suite in preset::names(SUITES) {
             let sold = windows(monitor(&format!("suite = '{suite}'")));
             assert_eq!(sold, windows(MonitorParameters::default()), "{suite}");
+        }
+    }
+
+    /// The last that the count moves may come while the gyroscope shows no rate any more.
+    #[test]
+    fn an_impact_that_stops_the_block_is_no_fault() {
+        for (degrees, amplitude, controller) in [
+            (10.0, 2.2, "rate_hz = 400"),
+            (10.0, 2.2, "rate_hz = 1000"),
+            (10.0, 2.2, "rate_hz = 2000"),
+            (10.0, 2.4, "sensors = { encoder = { latency_s = 0.002 } }"),
+            (25.0, 2.5, "rate_hz = 400\nsensors = { suite = 'adis16470' }"),
+        ] {
+            let desk = desk_of(
+                &format!("slenderness_deg = {degrees}, restitution = 0.0"),
+                "",
+                &format!("amplitude_ratio = {amplitude}, frequency_ratio = 4.0"),
+                &format!("law = 'passive'\n{controller}"),
+            );
+            assert_eq!(faults(&desk, 1), 0, "{controller}");
+            assert!(faults_with(&desk, 1, &mut Injected::new(Failing::Stuck(Part::Encoder), 0.5)) > 0, "{controller}");
+        }
+        // Parts as they are sold follow a stop for longer than a tick.
+        let default = MonitorParameters::default().count_tolerance;
+        for suite in preset::names(SUITES).filter(|suite| *suite != "ideal") {
+            assert_eq!(monitor(&format!("suite = '{suite}'")).count_tolerance, default, "{suite}");
         }
     }
 
