@@ -51,7 +51,7 @@ pub struct GyroscopeTable {
     #[schemars(range(min = 0.0, max = 1e5))]
     pub full_scale_deg_s: Option<f64>,
     /// How often it is read; 0 (continuously), or from 5.
-    #[schemars(range(min = 0.0, max = 1e5))]
+    #[schemars(range(min = 0.0, max = 1e5), example = 2000.0)]
     pub rate_hz: Option<f64>,
     /// Whether it is read at whole periods instead of on a clock of its own.
     pub synchronous: Option<bool>,
