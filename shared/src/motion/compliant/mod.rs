@@ -116,9 +116,9 @@ impl<S: Real> CompliantSystem<S> {
         state
     }
 
-    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
-    /// event: uplift where a foot leaves the ground that both pressed on, impact where both press again. A state that has overturned stays
-    /// as it is.
+    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to
+    /// `duration` (s), giving `observer` every interval and event: uplift where a foot leaves the ground that both pressed on, impact where
+    /// both press again. A state that has overturned stays as it is.
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.

@@ -114,8 +114,9 @@ impl<S: Real> SlidingSystem<S> {
         state
     }
 
-    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to `duration` (s), giving `observer` every interval and
-    /// event. Intervals end at turns; θ̇ may have an extreme inside one. A state that has ended stays as it is.
+    /// Follows the block in steps of `step` (s), or shorter ones where the ground moves faster, over `ground` from its local time 0 to
+    /// `duration` (s), giving `observer` every interval and event. Intervals end at turns; θ̇ may have an extreme inside one. A state that
+    /// has ended stays as it is.
     ///
     /// # Errors
     /// [`Stopped`], with the state as it was then.

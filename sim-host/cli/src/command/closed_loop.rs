@@ -114,11 +114,7 @@ impl Run for LoopArguments {
             report.picture(&numbered("loop", number), picture)?;
         }
         runs.iter().for_each(|run| report.print(run));
-        for run in &runs {
-            for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
-                report.note(format_args!("warning: {}: {warning}", run.device));
-            }
-        }
+        report.note_checks(runs.iter().map(|run| (run.device.as_str(), run.checks.as_ref())));
         report.finish(context)
     }
 }

@@ -13,6 +13,7 @@ use sprag_report::progress::Progress;
 use sprag_report::terminal::for_terminal;
 use sprag_sim::record::RecordSummary;
 use sprag_sim::scene::schema::SceneFile;
+use sprag_sim::simulation::demand::Demand;
 
 use super::context::{Completion, Context};
 use super::out_arguments::OutputArguments;
@@ -180,6 +181,15 @@ impl Report {
     /// Writes a line to standard error.
     pub fn note(&mut self, line: impl Display) {
         self.notes.push(line.to_string());
+    }
+
+    /// Notes the warnings of `[checks]` of each device, with its name.
+    pub fn note_checks<'a>(&mut self, devices: impl Iterator<Item = (&'a str, Option<&'a Demand>)>) {
+        for (device, checks) in devices {
+            for warning in checks.iter().flat_map(|checks| &checks.warnings) {
+                self.note(format_args!("warning: {device}: {warning}"));
+            }
+        }
     }
 
     /// Names what was left out.

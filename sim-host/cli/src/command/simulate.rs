@@ -108,11 +108,7 @@ impl Run for SimulateArguments {
         if scene.file.checks.as_ref().is_none_or(|checks| checks.friction_coefficient.is_none()) {
             friction_lines(&runs).iter().for_each(|line| report.print(line));
         }
-        for run in &runs {
-            for warning in run.checks.iter().flat_map(|checks| &checks.warnings) {
-                report.note(format_args!("warning: {}: {warning}", run.device));
-            }
-        }
+        report.note_checks(runs.iter().map(|run| (run.device.as_str(), run.checks.as_ref())));
         let ending = report.finish(context)?;
         if self.open
             && let Some(picture) = picture

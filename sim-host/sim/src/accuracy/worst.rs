@@ -57,6 +57,7 @@ mod tests {
         assert_eq!(worst.to_string(), "of 3 runs 1 outcomes are in doubt; peaks of the others are within 2.0e-9 of themselves");
         assert_eq!(worst, Worst { peak_rotation_relative: Some(2e-9), outcomes_in_doubt: 1, results: 3 });
     }
+
     /// A block that overturns or does not rock has no peak that could err.
     #[test]
     fn results_without_a_peak_have_no_error_of_one() {
