@@ -28,10 +28,15 @@ pub(super) fn crowded<S: Real>(before: u32, length: S, unit: S) -> u32 {
 }
 
 impl<S: Real> HybridSystem<S> {
-    /// Whether a step from `side` ended in an impact that does not end in rest: however short its swings are, they shrink, and it is no event at
-    /// once.
+    /// Whether a step from `side` ended in an impact that does not end in rest, as it need not below the rest threshold while a support moves:
+    /// however short its swings are, they shrink to what is negligible, and it is no event at once.
     pub(super) fn bounces(&self, state: &HybridState<S>, side: Sign) -> bool {
-        state.motion.side != side && state.motion.velocity.abs() > self.rest_speed
+        state.motion.side != side && !self.negligible(state.motion.velocity)
+    }
+
+    /// Whether a block that leaves its base at `velocity` rests, whatever holds it.
+    pub(super) fn negligible(&self, velocity: S) -> bool {
+        velocity.abs() <= self.rest_speed * S::EPSILON
     }
 }
 

@@ -61,7 +61,7 @@ impl<S: Real> HybridSystem<S> {
             self.stay_on_base(state, time, observer);
             return time;
         }
-        let negligible = velocity.abs() <= self.rest_speed * S::EPSILON;
+        let negligible = self.negligible(velocity);
         if !negligible && carried && self.moves_its_clutches(&standing, velocity) {
             return time;
         }

@@ -200,3 +200,17 @@ fn impacts_that_accumulate_are_those_that_are_followed() {
         assert_eq!(ends[0].impacts, ends[1].impacts, "{kind}");
     }
 }
+
+/// Below the rest threshold a support that swings on lets a block bounce on; hundreds of such bounces are within 1e-9/p where each takes hardly
+/// anything.
+#[test]
+fn bounces_on_a_support_that_swings_come_to_an_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let device = "kind = 'clutched-pair', support_frequency_hz = 1.09, support_damping_ratio = 0.5";
+    let grounds = "ground=[{motion='half-sine',amplitude_ratio=1.65,frequency_ratio=6.92},{motion='sine',amplitude_g=0.24,frequency_hz=4.69}]";
+    let block = ["block.size_m=3.0", "block.slenderness_deg=8.0", "block.restitution=0.99", "run.free_time_ratio=3.0"];
+    let changes = [&block[..], &["device.1.mass_ratio=2.0", grounds]].concat();
+    let peak = |threshold: &str| run(folder.path(), device, &[&changes[..], &[threshold]].concat()).peak_rotation.unwrap();
+    let (usual, finer) = (peak("run.rest_speed_ratio=1e-6"), peak("run.rest_speed_ratio=1e-8"));
+    assert!((finer / usual - 1.0).abs() < 1e-6, "{usual} and {finer}");
+}
