@@ -8,7 +8,6 @@ use sprag_shared::control::supervisor::Phase;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_sim::closed_loop::failing::{ALL, Injected};
-use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::{LoopReport, write_history};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
@@ -94,9 +93,8 @@ pub fn report(scene: &Scene, faults: &[(String, f64)]) -> Result<LoopReport, Pag
             let (task, error, looped) = task.answered()?;
             return LoopReport::of_answer(&task, error, looped);
         }
-        let (mut extremes, mut ticks) = (Extremes::default(), Vec::new());
-        let ending = task.run_with(&mut *task.driver()?, &mut several, &mut extremes, &mut ticks)?;
-        Ok(LoopReport::new(&task, ending, &extremes.peaks, task.ideal()?, ticks))
+        let looped = task.looped(&mut *task.driver()?, &mut several)?;
+        LoopReport::of_answer(&task, None, looped)
     };
     run().map_err(PageError::failed)
 }

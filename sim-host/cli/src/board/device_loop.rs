@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use sprag_sim::closed_loop::plant::Extremes;
 use sprag_sim::closed_loop::report::LoopReport;
 use sprag_sim::closed_loop::{LoopFailure, LoopTask};
 use sprag_sim::simulation::DeviceRun;
@@ -43,11 +42,10 @@ impl DeviceLoop {
         let settings = task.settings().map_err(LoopFailure::from)?;
         let own = task.driver().map_err(LoopFailure::from)?;
         let mut driver = DeviceDriver::attach(Session::new(line), &settings, own)?;
-        let (mut seen, mut extremes) = (Vec::new(), Extremes::default());
         let begun = Instant::now();
-        let ending = task.run_with(&mut driver, &mut (), &mut extremes, &mut seen);
+        let looped = task.looped(&mut driver, &mut ());
         let took = begun.elapsed();
         let farewell = driver.finish()?;
-        Ok(DeviceLoop { report: LoopReport::new(task, ending?, &extremes.peaks, ideal, seen), farewell, took })
+        Ok(DeviceLoop { report: LoopReport::new(task, looped?, ideal), farewell, took })
     }
 }

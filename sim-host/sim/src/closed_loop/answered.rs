@@ -3,12 +3,12 @@
 //! Between two ticks the plant is integrated, and that errs; what the controller decides of it is part of the loop, so a decision that falls
 //! otherwise for an error of the plant shows in the estimate.
 
-use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::error::ParameterError;
 
 use super::LoopTask;
 use super::assemble::LoopFailure;
+use super::disturbance::Disturbance;
 use super::driver::Driver;
 use super::plant::Extremes;
 use super::run::{Ending, TickObserver};
@@ -33,6 +33,11 @@ pub struct Looped<T> {
 }
 
 impl<T> Looped<T> {
+    /// max |θ|/α; `None` of a block that overturns.
+    pub fn peak_rotation(&self) -> Option<f64> {
+        (!self.outcome().overturned()).then_some(self.extremes.peaks.rotation / self.slenderness)
+    }
+
     /// How it ended, in the paper's words.
     pub fn outcome(&self) -> Outcome {
         Outcome::of(&self.ending.motion, &self.extremes.peaks)
@@ -43,28 +48,33 @@ impl<T> Comparable for Looped<T> {
     type Outcome = Outcome;
 
     fn compared(&self) -> Compared<Outcome> {
-        let stands = self.ending.motion.phase != Phase::Overturned;
-        let peaks = &self.extremes.peaks;
         Compared {
             outcome: self.outcome(),
-            peak_rotation: stands.then_some(peaks.rotation / self.slenderness),
+            peak_rotation: self.peak_rotation(),
             // Nobody looks for it in a loop.
             peak_acceleration: None,
-            first_impact_time: peaks.first_counted_impact,
+            first_impact_time: self.extremes.peaks.first_counted_impact,
         }
     }
 }
 
 impl<'a> LoopTask<'a> {
-    /// Runs the loop with `driver`, and shows its ticks to a new `T`.
-    fn looped<T: TickObserver + Default>(&self, mut driver: Box<dyn Driver>) -> Result<Looped<T>, LoopFailure> {
+    /// Runs the loop once with `driver` and `disturbance`, and shows its ticks to a new `T`.
+    ///
+    /// # Errors
+    /// Why the loop cannot be followed.
+    pub fn looped<T: TickObserver + Default>(
+        &self,
+        driver: &mut dyn Driver,
+        disturbance: &mut dyn Disturbance,
+    ) -> Result<Looped<T>, LoopFailure> {
         let (mut extremes, mut ticks) = (Extremes::default(), T::default());
         let (ending, extremes, checks) = match &self.scene.file.checks {
             Some(table) => {
-                let (ending, extremes, checks) = self.checked(table, &mut *driver, &mut ticks)?;
+                let (ending, extremes, checks) = self.checked(table, driver, disturbance, &mut ticks)?;
                 (ending, extremes, Some(checks))
             }
-            None => (self.run_with(&mut *driver, &mut (), &mut extremes, &mut ticks)?, extremes, None),
+            None => (self.run_with(driver, disturbance, &mut extremes, &mut ticks)?, extremes, None),
         };
         Ok(Looped { ending, extremes, ticks, checks, slenderness: self.scene.block.slenderness() })
     }
@@ -80,7 +90,7 @@ impl<'a> LoopTask<'a> {
         self,
         driver: impl Fn(&LoopTask<'a>) -> Result<Box<dyn Driver>, ParameterError>,
     ) -> Result<(LoopTask<'a>, Option<ErrorReport>, Looped<T>), LoopFailure> {
-        let run = |task: &LoopTask<'a>| task.looped(driver(task)?);
+        let run = |task: &LoopTask<'a>| task.looped(&mut *driver(task)?, &mut ());
         let Some(level) = self.scene.file.accuracy.level else {
             let looped = run(&self)?;
             return Ok((self, None, looped));

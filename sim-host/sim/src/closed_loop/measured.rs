@@ -5,6 +5,7 @@ use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
 
+use super::disturbance::Disturbance;
 use super::driver::Driver;
 use super::plant::Extremes;
 use super::run::{Ending, Looks, Tick, TickObserver};
@@ -80,17 +81,18 @@ impl LoopTask<'_> {
         Commanded { used: CoilUse::default(), period: self.clock().period }
     }
 
-    /// Runs the loop with `driver`, shows it to `ticks`, and says what its device asks for, which `table` wants to know.
+    /// As [`LoopTask::run_with`], and says what its device asks for, which `table` wants to know.
     pub(super) fn checked(
         &self,
         table: &ChecksTable,
         driver: &mut dyn Driver,
+        disturbance: &mut dyn Disturbance,
         ticks: &mut dyn TickObserver,
     ) -> Result<(Ending, Extremes, Demand), LoopFailure> {
         let task = self.task();
         let mut watched = Checked(Extremes::default(), task.checks(&task.loaded()?)?);
         let mut seen = Both(self.coils(), ticks);
-        let ending = self.run_with(driver, &mut (), &mut watched, &mut seen)?;
+        let ending = self.run_with(driver, disturbance, &mut watched, &mut seen)?;
         let demand = Demand::of(&task, table, &watched.1, table.coil.map(|_| seen.0.used));
         Ok((ending, watched.0, demand))
     }

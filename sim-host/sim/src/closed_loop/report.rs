@@ -6,12 +6,11 @@ use std::io::Write;
 use serde::Serialize;
 use sprag_shared::control::supervisor::Phase;
 use sprag_shared::observers::outcome::Outcome;
-use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::error::Number;
 
 use super::answered::Looped;
 use super::decisions::{DecisionReport, Decisions};
-use super::run::{Ending, Tick};
+use super::run::Tick;
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
 use crate::effect::number::true_minus;
@@ -97,16 +96,15 @@ impl LoopReport {
         error: Option<ErrorReport>,
         looped: Looped<Vec<Tick>>,
     ) -> Result<LoopReport, LoopFailure> {
-        let mut report = LoopReport::new(task, looped.ending, &looped.extremes.peaks, task.ideal()?, looped.ticks);
+        let mut report = LoopReport::new(task, looped, task.ideal()?);
         report.summary.error = error;
-        report.summary.checks = looped.checks;
         Ok(report)
     }
 
-    /// Report of a loop that has ended.
-    pub fn new(task: &LoopTask<'_>, ending: Ending, peaks: &Peaks<f64>, ideal: DeviceRun, ticks: Vec<Tick>) -> LoopReport {
-        let outcome = Outcome::of(&ending.motion, peaks);
-        let peak = (!outcome.overturned()).then_some(peaks.rotation / task.scene.block.slenderness());
+    /// Report of a loop that has ended, beside the run of the `ideal` pair.
+    pub fn new(task: &LoopTask<'_>, looped: Looped<Vec<Tick>>, ideal: DeviceRun) -> LoopReport {
+        let (outcome, peak) = (looped.outcome(), looped.peak_rotation());
+        let Looped { ending, ticks, checks, .. } = looped;
         let faults =
             ending.faults.iter().map(|(time, fault)| FaultEntry { time_s: *time, code: fault.code(), fault: fault.to_string() });
         let summary = LoopSummary {
@@ -125,7 +123,7 @@ impl LoopReport {
             controller_state: state(ending.phase),
             unready: (!ending.began_ready()).then(|| state(ending.began)),
             faults: faults.collect(),
-            checks: None,
+            checks,
             error: None,
             monte_carlo: None,
         };

@@ -310,5 +310,9 @@ fn a_loop_says_what_its_checks_found() {
     for words in ["the toe would slide: ", "the force on the device's support reaches "] {
         assert!(checks.warnings.iter().any(|warning| warning.starts_with(words)), "{checks:?}");
     }
+    // Whoever drives it.
+    let task = desk.task(0, 1, &interrupt);
+    let driven = task.looped::<()>(&mut *task.driver().unwrap(), &mut ()).unwrap();
+    assert_eq!(driven.checks, Some(checks));
     assert!(report(&desk.unchecked()).summary.checks.is_none());
 }
