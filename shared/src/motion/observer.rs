@@ -1,6 +1,6 @@
 //! Contract of an observer: it receives every monotone interval and every event. An unused observer costs nothing.
 
-use super::device_snapshot::DeviceOutput;
+use super::device_snapshot::{DeviceOutput, Snapshot};
 use super::state::BlockState;
 use crate::equation::motion::Motion;
 use crate::math::scalar::Real;
@@ -77,6 +77,12 @@ pub trait Observer<S: Real> {
 
     /// Impacts that accumulate to rest, summed in closed form; the rest is an event of its own.
     fn accumulation(&mut self, _tail: &Accumulation<S>) {}
+
+    /// The bounces that a rest at local `time` (s) stands for, as θ → 0: θ̈ (rad/s²) of a way, out or back on one side, by the signs of θ and θ̇.
+    fn bounce(&mut self, _way: (Sign, Sign), _acceleration: S, _time: S) {}
+
+    /// The same with the device on a way on `side`, where the loop shows one.
+    fn device_bounce(&mut self, _side: Sign, _time: S, _snapshot: &dyn Fn() -> Snapshot<S>) {}
 }
 
 /// Observer that ignores everything.

@@ -10,7 +10,8 @@ use sprag_loops::{Method, hybrid};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, DampedOscillation, Harmonics, Linear, Ricker};
 use sprag_shared::math;
-use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
@@ -104,6 +105,10 @@ impl Observer<f64> for Both {
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.0.accumulation(tail);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        self.1.device_bounce(side, time, snapshot);
     }
 }
 

@@ -2,18 +2,29 @@
 
 use super::mode_output::Shaking;
 use super::{Actuator, HybridState, HybridSystem};
+use crate::drivetrain::any_transmission::Traits;
 use crate::drivetrain::clutch_state::{Coupling, DeviceState, FlywheelState, GUARDS};
 use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
+use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, Observer};
-use crate::motion::rest::impact_accumulation::Accumulation;
-use crate::motion::state::Phase;
+use crate::motion::rest::impact_accumulation::{Accumulation, ways};
+use crate::motion::state::{BlockState, Phase};
 
 /// How many times as fast as the rack a support is under whose motion the block's own is too slow to switch clutches.
 const SLOW: f64 = 1e3;
+
+/// How many flywheels.
+fn count(wheels: [bool; 2]) -> u32 {
+    wheels.map(u32::from).iter().sum()
+}
+
+fn is_locked<S>(wheel: &FlywheelState<S>) -> bool {
+    wheel.coupling == Coupling::Locked
+}
 
 impl<S: Real> HybridSystem<S> {
     /// Impact at θ = 0. Returns the time, which rest moves on to the end of the impacts that it stands for.
@@ -65,10 +76,14 @@ impl<S: Real> HybridSystem<S> {
         if !negligible && carried && self.moves_its_clutches(&standing, velocity) {
             return time;
         }
-        let tail = self.accumulation(&standing, &state.device, velocity.abs());
+        let stuck = self.stuck(&standing, &state.device);
+        let tail = self.accumulation(&standing, stuck, velocity.abs());
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
         observer.accumulation(&tail);
+        if tail.acceleration > S::ZERO {
+            self.show_bounces(&standing, stuck, time, observer);
+        }
         *state = standing;
         state.motion.impacts += tail.impacts;
         observer.event(Event::Rest, ends, &state.motion);
@@ -86,17 +101,19 @@ impl<S: Real> HybridSystem<S> {
         terminals.support.abs() < S::of(SLOW) * rack.abs()
     }
 
-    /// Flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
+    /// The flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
     /// or where swings are too short for what delays their clutches, which are as in `device` before them; none where clutches follow every swing.
-    fn stuck(&self, standing: &DeviceState<S>, device: &DeviceState<S>) -> Option<u32> {
+    fn stuck(&self, standing: &HybridState<S>, device: &DeviceState<S>) -> Option<[bool; 2]> {
         let Actuator { engagement_delay, release_delay, dwell, controlled, .. } = self.actuator;
         let delayed = engagement_delay.larger(release_delay).larger(dwell) > S::ZERO;
-        if !self.transmission.traits().commanded {
+        let Traits { commanded, springs, .. } = self.transmission.traits();
+        // Springs give way.
+        if !commanded || springs || self.is_carried(standing) {
             return None;
         }
         // Swings that are summed end in the piece that is followed, before its next command.
         if controlled {
-            return Some(standing.locked());
+            return Some(standing.device.wheels.each_ref().map(is_locked));
         }
         // Only clutches that lock: plates give way.
         if !delayed || self.plates().is_finite() {
@@ -107,7 +124,7 @@ impl<S: Real> HybridSystem<S> {
             // Once it is engaged it stays so.
             _ => engagement_delay.larger(wheel.dwell) <= S::ZERO,
         };
-        Some(device.wheels.iter().map(|wheel| u32::from(stays(wheel))).sum())
+        Some(device.wheels.each_ref().map(stays))
     }
 
     /// Capacity of plates as they meet; infinite of clutches that lock.
@@ -115,54 +132,93 @@ impl<S: Real> HybridSystem<S> {
         self.transmission.parameters.capacity_of(&FlywheelState::default()).0
     }
 
-    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]), before which the
-    /// device was `device`.
-    fn accumulation(&self, standing: &HybridState<S>, device: &DeviceState<S>, speed: S) -> Accumulation<S> {
-        let side = standing.motion.side;
+    /// Whether the terminals of a block that is `standing` have a support that moves otherwise than the ground: clutches stay as they are while such
+    /// a block is on one side.
+    fn is_carried(&self, standing: &HybridState<S>) -> bool {
+        let moves = standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
+        moves && self.transmission.traits().commanded
+    }
+
+    /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]), with `stuck`
+    /// flywheels ([`HybridSystem::stuck`]).
+    fn accumulation(&self, standing: &HybridState<S>, stuck: Option<[bool; 2]>, speed: S) -> Accumulation<S> {
+        let [out, back, farther, home] = ways(standing.motion.side).map(|way| self.bounce(standing, stuck, way).0);
+        // As it hits, the block has the flywheels that it has as it falls.
+        let hits = if self.transmission.traits().through_impacts { stuck.map_or(1, count) } else { 0 };
+        let restitution = self.restitution[hits.min(2) as usize];
+        Accumulation::of((out, back), (farther, home), restitution, speed, self.counted_speed)
+    }
+
+    /// A way of such impacts: |θ̈| (rad/s²; inward, 0 where friction holds the block at the top), and block and device on it.
+    fn bounce(
+        &self,
+        standing: &HybridState<S>,
+        stuck: Option<[bool; 2]>,
+        (side, direction): (Sign, Sign),
+    ) -> (S, HybridState<S>) {
         let ScaledParameters { inertance, rack_coupling, rack_dry, bearing_dry, load_friction, .. } =
             self.transmission.parameters;
         let traits = self.transmission.traits();
-        // There clutches stay as they are while such a block is on one side.
-        let carried = traits.commanded && standing.device.terminals.is_some_and(|terminals| terminals.support != S::ZERO);
-        let plates = self.plates();
-        // Springs give way.
-        let stuck = self.stuck(&standing.device, device).filter(|_| !traits.springs && !carried);
-        let rates = |side: Sign| {
-            let configuration = self.body.configuration(side.unit(), S::ZERO);
-            let arm = self.body.arm(&configuration);
-            let lifted = if carried { self.sets_out(standing, side, standing.ground) } else { *standing };
-            let threshold = self.breakaway(&lifted, side, side);
-            // What holds the block without dry friction, which acts against either way of motion.
-            let held = -threshold.at(standing.ground) - threshold.dry;
-            let over = |inward: bool, load: S| {
-                let engaged = match carried {
-                    true => S::count(lifted.device.locked()),
-                    // Swings as short as these leave a flywheel behind that slips viscously or hangs on a spring.
-                    false if self.transmission.slips_viscously() || traits.springs => S::ZERO,
-                    false => S::count(stuck.unwrap_or(u32::from(inward || traits.permanent))),
-                };
-                let rate = |inertance: S, bearings: S| {
-                    let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
-                    let dry = arm * (rack_dry + bearings * (S::ONE + load));
-                    (if inward { held - dry } else { held + dry }) / inertia
-                };
-                let inertance = engaged * inertance;
-                let locked = rate(inertance, inertance * bearing_dry);
-                // Plates pass no more than they can as they meet; outward they push the block.
-                let slips = if engaged > S::ZERO && plates.is_finite() {
-                    rate(S::ZERO, engaged * if inward { plates } else { -plates })
-                } else {
-                    locked
-                };
-                locked.larger(slips).larger(if inward { S::ZERO } else { S::EPSILON * S::EPSILON })
-            };
-            // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
-            (over(false, -load_friction).larger(over(false, load_friction)), over(true, load_friction))
+        let (carried, inward) = (self.is_carried(standing), direction != side);
+        let mut state = if carried { self.sets_out(standing, side, standing.ground) } else { *standing };
+        let arm = self.body.arm(&self.body.configuration(side.unit(), S::ZERO));
+        let threshold = self.breakaway(&state, side, side);
+        // What holds the block without dry friction, which acts against either way of motion.
+        let held = -threshold.at(standing.ground) - threshold.dry;
+        let locked = match carried {
+            true => state.device.wheels.each_ref().map(is_locked),
+            // Swings as short as these leave a flywheel behind that slips viscously or hangs on a spring.
+            false if self.transmission.slips_viscously() || traits.springs => [false; 2],
+            false if traits.permanent => [true, false],
+            false => stuck.unwrap_or_else(|| [0, 1].map(|wheel| inward && wheel == wheel_for(direction))),
         };
-        // As it hits, the block has the flywheels that it has as it falls.
-        let hits = if traits.through_impacts { stuck.unwrap_or(1) } else { 0 };
-        let restitution = self.restitution[hits.min(2) as usize];
-        Accumulation::of(rates(side), rates(side.opposite()), restitution, speed, self.counted_speed)
+        let engaged = S::count(count(locked));
+        let plates = self.plates();
+        let over = |load: S| {
+            let rate = |inertance: S, bearings: S| {
+                let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
+                let dry = arm * (rack_dry + bearings * (S::ONE + load));
+                (if inward { held - dry } else { held + dry }) / inertia
+            };
+            let inertance = engaged * inertance;
+            let sticks = rate(inertance, inertance * bearing_dry);
+            // Plates pass no more than they can as they meet; outward they push the block.
+            let slips = if engaged > S::ZERO && plates.is_finite() {
+                rate(S::ZERO, engaged * if inward { plates } else { -plates })
+            } else {
+                sticks
+            };
+            (sticks.larger(slips).larger(if inward { S::ZERO } else { S::EPSILON * S::EPSILON }), slips > sticks)
+        };
+        let (loaded, slip) = over(load_friction);
+        // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
+        let driven = if inward { loaded } else { over(-load_friction).0 };
+        for (wheel, locked) in state.device.wheels.iter_mut().zip(locked) {
+            wheel.coupling = match wheel.coupling {
+                _ if locked && slip => Coupling::Slipping(side.opposite()),
+                _ if locked => Coupling::Locked,
+                Coupling::Locked => Coupling::Open,
+                other => other,
+            };
+            wheel.engaged_for = if slip { S::ZERO } else { wheel.engaged_for };
+        }
+        state.device.drives = driven > loaded;
+        // Friction has the sign of a speed that is nothing beside all others.
+        let velocity = direction.times(self.rest_speed * S::EPSILON);
+        state.motion = BlockState { direction, velocity, ..standing.motion.uplifted(side) };
+        (loaded.larger(driven), state)
+    }
+
+    /// Observation of the ways of impacts that accumulate, up to the one on which friction holds the block.
+    fn show_bounces(&self, standing: &HybridState<S>, stuck: Option<[bool; 2]>, time: S, observer: &mut dyn Observer<S>) {
+        for (side, direction) in ways(standing.motion.side) {
+            let (rate, state) = self.bounce(standing, stuck, (side, direction));
+            if rate == S::ZERO {
+                return;
+            }
+            let acceleration = side.opposite().times(rate);
+            observer.device_bounce(side, time, &|| self.snapshot(&self.law(&state), &state, &self.place(&state), acceleration));
+        }
     }
 
     /// Signs and modes of a block that has just been released.

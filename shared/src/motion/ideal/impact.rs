@@ -7,7 +7,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::observer::{Event, Observer};
 use crate::motion::rest::free_decay::HalfCycles;
-use crate::motion::rest::impact_accumulation::Accumulation;
+use crate::motion::rest::impact_accumulation::{Accumulation, ways};
 use crate::motion::state::{BlockState, Phase};
 
 impl<S: Real> IdealSystem<S> {
@@ -46,6 +46,11 @@ impl<S: Real> IdealSystem<S> {
             let negligible = state.velocity.abs() <= self.rest_speed * S::EPSILON;
             if let Some(ends) = tail.rest(time, duration, negligible, |at| segment.acceleration(at).abs() < self.uplift) {
                 observer.accumulation(&tail);
+                if tail.acceleration > S::ZERO {
+                    for way in ways(state.side) {
+                        observer.bounce(way, self.bounce(way, ground), time);
+                    }
+                }
                 *state = state.rested(state.impacts + tail.impacts);
                 observer.event(Event::Rest, ends, state);
                 return ends;
@@ -96,13 +101,12 @@ impl<S: Real> IdealSystem<S> {
 
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
-        let rates = |side: Sign| {
-            let rate = |terminal_acceleration_sign: Sign| {
-                let equation = self.equation(side, terminal_acceleration_sign);
-                equation.acceleration(side.unit(), S::ZERO, S::ZERO, ground).abs().larger(S::EPSILON * S::EPSILON)
-            };
-            (rate(side.opposite()), rate(side))
-        };
-        Accumulation::of(rates(side), rates(side.opposite()), self.restitution, speed, self.counted_speed)
+        let [out, back, farther, home] = ways(side).map(|way| self.bounce(way, ground).abs().larger(S::EPSILON * S::EPSILON));
+        Accumulation::of((out, back), (farther, home), self.restitution, speed, self.counted_speed)
+    }
+
+    /// θ̈ (rad/s²) of a way of its bounces, inward on either.
+    fn bounce(&self, (side, direction): (Sign, Sign), ground: S) -> S {
+        self.equation(direction, side.opposite()).acceleration(side.unit(), S::ZERO, S::ZERO, ground)
     }
 }

@@ -4,12 +4,24 @@
 //! θ̇ = v lasts v/a₁ + v/√(a₁a₂) and the next one starts at v η √(a₂/a₁).
 
 use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 
 /// Pairs of swings that are followed in one segment of the ground when their impacts do not end them.
 const MOST_IDLE_SWINGS: f64 = 1e3;
 
-/// Relative difference up to which |θ̈| of the impacts that accumulate has been seen in swings before them.
+/// Relative difference up to which a quantity of the impacts that accumulate has been seen in swings before them.
 const SHOWN: f64 = 1e-4;
+
+/// The ways of two bounces, the first to `side`: signs of θ and θ̇, out and back on each side.
+pub fn ways(side: Sign) -> [(Sign, Sign); 4] {
+    let other = side.opposite();
+    [(side, side), (side, other), (other, other), (other, side)]
+}
+
+/// Whether `value` of a quantity of the impacts that accumulate is above its `record`, by more than what swings before them have shown.
+pub fn is_new<S: Real>(value: S, record: S) -> bool {
+    value > record + record.abs() * S::of(SHOWN)
+}
 
 /// Sums over an impact accumulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +73,7 @@ impl<S: Real> Accumulation<S> {
     /// The largest |θ̈| of a motion that had `peak` before them (rad/s²). Swings before them have shown theirs already, but for what the ground
     /// changes in so short a time.
     pub fn raise(&self, peak: S) -> S {
-        if self.acceleration > peak * (S::ONE + S::of(SHOWN)) { self.acceleration } else { peak }
+        if is_new(self.acceleration, peak) { self.acceleration } else { peak }
     }
 
     /// When a block whose impact at `time` they follow is at rest, in a segment of the ground that lasts until `duration` (local times,

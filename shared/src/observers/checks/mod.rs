@@ -18,6 +18,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::rest::impact_accumulation::is_new;
 use crate::motion::state::{BlockState, as_good_as};
 use crate::observers::ledger::Account;
 use crate::structure::COUNTED_SPEED;
@@ -236,6 +237,18 @@ impl<S: Real> Observer<S> for Checks<S> {
             standing.look(output, interval);
             let Report { vertical, contact_lost, .. } = self.report;
             self.report = Report { vertical, contact_lost, ..standing.report };
+        }
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: S, snapshot: &dyn Fn() -> Snapshot<S>) {
+        let readings = self.readings(side, &snapshot());
+        for (quantity, value) in readings.into_iter().enumerate().skip(self.first) {
+            if is_new(value, self.report.record(quantity).unwrap_or(S::ZERO)) {
+                self.report.raise(quantity, value, self.origin + time);
+            }
+        }
+        if self.first < FORCES && readings[1] >= S::ZERO {
+            self.report.contact_lost.get_or_insert(self.origin + time);
         }
     }
 

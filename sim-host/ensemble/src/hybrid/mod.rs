@@ -182,7 +182,7 @@ impl HybridMotion {
         if let Some(checks) = checks {
             checks.origin = origin;
         }
-        (state, Watch { peaks, checks: checks.as_mut() })
+        (state, Watch { peaks, checks: checks.as_mut(), pressed: true })
     }
 }
 

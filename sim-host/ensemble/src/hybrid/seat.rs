@@ -82,14 +82,14 @@ impl<'a> Seat<'a> {
         }
     }
 
-    /// One step of the core's loop: by its own series, or by that which a lane has expanded. Without `pressed` no force is larger than ever.
+    /// One step of the core's loop: by its own series, or by that which a lane has expanded. Without `pressed` no force on it is larger than ever.
     fn step(&mut self, method: &dyn HybridLoop<f64>, pressed: bool) -> Result<(), Stopped> {
         self.begin();
         let limits = Limits { overturned: self.overturned(), events: MOST_EVENTS };
         let HybridBlock { system, ground, .. } = self.block;
         let length = ground.length(self.interval);
         let (state, mut watch) = self.motion.watched(ground.start(self.interval));
-        watch.checks = watch.checks.filter(|_| pressed);
+        watch.pressed = pressed;
         ground.over(self.interval, |shaking| {
             method.step(system, state, (shaking, length), &mut self.progress, &limits, &mut watch)
         })?;

@@ -1,6 +1,7 @@
 //! Those who watch a block of the lanes while the core has it.
 
-use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
@@ -11,12 +12,14 @@ use sprag_shared::observers::peaks::Peaks;
 pub(super) struct Watch<'a> {
     pub(super) peaks: &'a mut Peaks<f64>,
     pub(super) checks: Option<&'a mut Checks<f64>>,
+    /// The steps may press harder than any before them; the bounces that a rest stands for may do so anyway.
+    pub(super) pressed: bool,
 }
 
 impl Observer<f64> for Watch<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.peaks.interval(output.motion(), interval);
-        if let Some(checks) = &mut self.checks {
+        if let Some(checks) = self.checks.as_mut().filter(|_| self.pressed) {
             checks.device_interval(output, interval);
         }
     }
@@ -30,5 +33,11 @@ impl Observer<f64> for Watch<'_> {
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.peaks.accumulation(tail);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        if let Some(checks) = &mut self.checks {
+            checks.device_bounce(side, time, snapshot);
+        }
     }
 }

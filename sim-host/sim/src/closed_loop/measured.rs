@@ -1,6 +1,7 @@
 //! A closed loop as the run of its device: outcome and peaks, and what the scene's `[checks]` ask of forces, travel, teeth and coils.
 
-use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
@@ -66,6 +67,10 @@ impl Observer<f64> for Checked {
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.0.event(event, time, state);
         self.1.event(event, time, state);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        self.1.device_bounce(side, time, snapshot);
     }
 }
 

@@ -5,8 +5,9 @@ use sprag_shared::equation::Accelerations;
 use sprag_shared::equation::body::Body;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
+use sprag_shared::math::sign::Sign;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
-use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::hybrid::footing::Footing;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
@@ -346,6 +347,10 @@ impl Observer<f64> for Watched<'_> {
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.0.accumulation(tail);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        self.0.device_bounce(side, time, snapshot);
     }
 }
 

@@ -316,3 +316,19 @@ fn a_loop_says_what_its_checks_found() {
     assert_eq!(driven.checks, Some(checks));
     assert!(report(&desk.unchecked()).summary.checks.is_none());
 }
+
+/// The last bounces of a block that hardly lifts off ask of its toe what they ask where they are followed.
+#[test]
+fn the_checks_of_a_loop_count_the_last_bounces() {
+    let interrupt = Interrupt::default();
+    let reaction = |rest_speed_ratio: f64| {
+        let mut desk = scene(RIGID, "motion = 'half-sine', amplitude_ratio = 1.0001, frequency_ratio = 3.0");
+        desk.scene.file.run.rest_speed_ratio = rest_speed_ratio;
+        desk.scene.file.checks = Some(ChecksTable::default());
+        let (task, error, looped) = desk.task(0, 1, &interrupt).answered().unwrap();
+        let checks = LoopReport::of_answer(&task, error, looped).unwrap().summary.checks.unwrap();
+        checks.smallest_vertical_reaction_ratio.unwrap()
+    };
+    let [summed, followed] = [1e-6, 1e-8].map(reaction);
+    assert!((summed - followed).abs() < 1e-3 && followed < 0.95, "{summed} {followed}");
+}

@@ -177,6 +177,51 @@ fn rounding_does_not_decide_whether_a_clutch_closes_before_the_fall() {
     }
 }
 
+/// A block that a ground just above its threshold lifts by next to nothing falls back on its other side with twice that acceleration. Whether such
+/// bounces are summed or followed, they ask for the same.
+#[test]
+fn the_last_bounces_ask_for_what_they_are_followed_with() {
+    let demand = |amplitude: f64, device: &str, rest_speed_ratio: f64| {
+        let text = format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 40.0, restitution = 0.5 }}
+            device = [{{ mass_ratio = 0.5, {device} }}]
+            ground = [{{ motion = 'half-sine', amplitude_ratio = {amplitude}, frequency_ratio = 3.0 }}]
+            run = {{ free_time_ratio = 6.0, rest_speed_ratio = {rest_speed_ratio:e} }}
+            [checks]"
+        );
+        let run = runs_of(&text).remove(0);
+        let checks = run.checks.unwrap();
+        assert_eq!(checks.force_ratio, run.peak_force_ratio);
+        [checks.force_ratio, checks.smallest_vertical_reaction_ratio, checks.friction_needed].map(Option::unwrap)
+    };
+    let braked = "kind = 'clutched-pair', flywheel = { brake_deceleration_m_s2 = 'instant' }";
+    let rigid = format!("{braked}, engagement = 'rigid'");
+    for (amplitude, device) in [
+        (1.0001, "kind = 'inerter'"),
+        (1.0001, "kind = 'inerter', rack = { load_friction = 0.2 }"),
+        (1.0001, "kind = 'inerter', inertance_corner_hz = 4"),
+        (1.3, "kind = 'inerter', support_amplification = 1.2"),
+        (1.0001, "kind = 'clutched-pair'"),
+        (1.0001, "kind = 'clutched-pair', mount = 'base-corners', pulley_ratio = 2"),
+        (1.1193, "kind = 'clutched-pair', rack = { dry_friction_ratio = 0.1 }"),
+        (1.0001, "kind = 'clutched-pair', engagement = 'overrunning'"),
+        (1.0001, &format!("{braked}, clutch = {{ capacity_ratio = 0.02 }}")),
+        (1.0001, &format!("{braked}, clutch = {{ stiffness_ratio = 100, damping_ratio = 0.2 }}")),
+        (1.0001, &format!("{rigid}, actuation = {{ engagement_delay_s = 0.05 }}")),
+        (1.0001, &format!("{rigid}, actuation = {{ release_delay_s = 0.05 }}")),
+        (1.0001, &format!("{rigid}, actuation = {{ release_delay_s = 0.05 }}, rack = {{ load_friction = 0.2 }}")),
+    ] {
+        let [summed, followed] = [1e-6, 1e-8].map(|speed| demand(amplitude, device, speed));
+        for (a, b) in summed.iter().zip(&followed) {
+            assert!((a - b).abs() < 1e-3 * b.abs().max(0.1), "{device}: {summed:?} {followed:?}");
+        }
+    }
+    // The inerter: σ cos α θ̈ R/g with θ̈ = 2 p² sin α/(1 + k cos² α).
+    let (k, (sin, cos)) = (0.375, math::sin_cos(40_f64.to_radians()));
+    let [force, ..] = demand(1.0001, "kind = 'inerter'", 1e-6);
+    assert!((force / (2.0 * k * cos * sin / (1.0 + k * cos * cos)) - 1.0).abs() < 1e-3, "{force}");
+}
+
 /// A block of 2 m and 10° that friction of `device` holds at `rotation_ratio` of α under `ground`.
 fn held(rotation_ratio: f64, device: &str, ground: &str, more: &str) -> DeviceRun {
     let text = format!(

@@ -1,7 +1,8 @@
 //! Everyone who watches a run: the history, the peaks, the checks, and what the scene asks for beyond them.
 
 use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::DeviceOutput;
+use sprag_shared::math::sign::Sign;
+use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::ideal::device_view::Watched;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
@@ -58,6 +59,12 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
         self.peaks.accumulation(tail);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: S, snapshot: &dyn Fn() -> Snapshot<S>) {
+        if let Some(checks) = &mut self.checks {
+            checks.device_bounce(side, time, snapshot);
+        }
     }
 }
 

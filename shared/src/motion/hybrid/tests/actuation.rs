@@ -7,7 +7,7 @@ use crate::drivetrain::clutch_state::Coupling;
 use crate::ground::Harmonics;
 use crate::math::scalar::Real;
 use crate::math::sign::Sign;
-use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::hybrid::mode_output::Shaking;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits};
@@ -62,8 +62,17 @@ fn pulse(mut machine: HybridSystem<f64>) -> (Vec<f64>, bool) {
     (watcher.switches.iter().map(|(time, ..)| *time).collect(), state.device.wheels[1].commanded)
 }
 
+/// Forces on the support on the ways of the bounces that a rest stands for.
+struct Forces(Vec<f64>);
+
+impl Observer<f64> for Forces {
+    fn device_bounce(&mut self, _side: Sign, _time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        self.0.push(snapshot().support_force());
+    }
+}
+
 /// The last bounces of a block with n flywheels that a controller holds, whichever way it moves: at a = p² sin α/(1 + n k cos² α) each lasts 2 v/a
-/// and the next one starts at η v, 2 η v/((1 − η) a) in all after a first impact at v.
+/// and the next one starts at η v, 2 η v/((1 − η) a) in all after a first impact at v. The flywheels press with n k cos α a on each way.
 #[test]
 fn bounces_have_the_clutches_that_a_controller_holds() {
     let mut structure = pair(Geometry::Full, 1.0, 1.0).structure;
@@ -84,8 +93,8 @@ fn bounces_have_the_clutches_that_a_controller_holds() {
                 let height = machine.rest_speed * machine.rest_speed / (2.0 * p2 * sine);
                 let mut state = machine.released_at(side * height, 0.0, [0.0; 3]);
                 machine.order(&mut state, engaged, &mut ());
-                let mut nobody = ();
-                let mut watcher = Watcher::new(&mut nobody);
+                let mut forces = Forces(Vec::new());
+                let mut watcher = Watcher::new(&mut forces);
                 let limits = Limits { overturned: 1.0, events: 10_000 };
                 machine.advance(&tight(), &mut state, Shaking::level(&Harmonics::QUIET), 0.1, &limits, &mut watcher).unwrap();
                 let case = std::format!("{engagement:?} {restitution:?} {engaged:?} {side}: {:?}", watcher.events);
@@ -99,6 +108,9 @@ fn bounces_have_the_clutches_that_a_controller_holds() {
                 assert!((found / rest - 1.0).abs() < 1e-6, "{found} for {rest}, {case}");
                 let largest = watcher.peaks.acceleration;
                 assert!((largest / rate - 1.0).abs() < 1e-6, "{largest} for {rate}, {case}");
+                let force = f64::from(count) * k * cosine * rate;
+                let same = |found: &f64| (found.abs() - force).abs() <= 1e-6 * force;
+                assert!(forces.0.len() == 4 && forces.0.iter().all(same), "{:?} for {force}, {case}", forces.0);
             }
         }
     }

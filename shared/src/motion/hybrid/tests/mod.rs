@@ -22,10 +22,11 @@ use super::mode_output::{ModeIntegrator, Shaking};
 use super::series::Series;
 use super::{HybridState, HybridSystem};
 use crate::ground::{AnySegment, Harmonics, Linear};
+use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::method::fixed::{FixedStep, Scheme};
 use crate::method::taylor::Taylor;
-use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
 use crate::motion::state::{BlockState, Limits};
@@ -138,6 +139,10 @@ impl Observer<f64> for Watcher<'_> {
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.peaks.accumulation(tail);
         self.other.accumulation(tail);
+    }
+
+    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
+        self.other.device_bounce(side, time, snapshot);
     }
 }
 

@@ -12,6 +12,7 @@ use crate::equation::clutch_rule::ClutchRule;
 use crate::equation::motion::Motion;
 use crate::ground::GroundSegment;
 use crate::math::scalar::Real;
+use crate::math::sign::Sign;
 use crate::method::dense_output::DenseOutput;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
@@ -56,6 +57,14 @@ impl<S: Real, P: GroundSegment<S>, O: Observer<S>> Observer<S> for Watched<'_, S
     fn accumulation(&mut self, tail: &Accumulation<S>) {
         self.observer.accumulation(tail);
     }
+
+    fn bounce(&mut self, (side, direction): (Sign, Sign), acceleration: S, time: S) {
+        let wheel = self.clutch.flywheel(self.clutch.engages(direction, side.opposite()), direction);
+        let motion = Motion { rotation: S::ZERO, velocity: S::ZERO, acceleration };
+        let ground = self.segment.acceleration(time);
+        let snapshot = || seen((&self.engaged, self.coupling, wheel), side.unit(), motion, ground);
+        self.observer.device_bounce(side, time, &snapshot);
+    }
 }
 
 /// Dense output with the ideal device engaged over it.
@@ -77,21 +86,32 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
 
     #[inline]
     fn snapshot(&self, time: S) -> Snapshot<S> {
-        let motion = self.output.at(time);
-        let Motion { rotation, velocity, acceleration } = motion;
-        // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
-        let terminal_velocity = self.equation.terminal_acceleration(self.side, rotation, S::ZERO, velocity);
-        let mut device = Account::NOTHING;
-        if let Some(wheel) = self.wheel {
-            let terminal = self.equation.terminal_acceleration(self.side, rotation, velocity, acceleration);
-            device.force[wheel] = self.coupling * terminal;
-            device.engaged[wheel] = true;
-            device.spin[wheel] = terminal_velocity;
-            device.stored = S::HALF * self.coupling * terminal_velocity * terminal_velocity;
-            device.spent.kinematics = self.equation.paper_power(self.side, rotation, velocity);
-        }
-        Snapshot { motion, ground: [self.segment.acceleration(self.start + time), S::ZERO, S::ZERO], terminal_velocity, device }
+        let ground = self.segment.acceleration(self.start + time);
+        seen((self.equation, self.coupling, self.wheel), self.side, self.output.at(time), ground)
     }
+}
+
+/// Snapshot of a block that moves on a side s = `side` with the flywheel `wheel` working, if any; `ground` is ü_g/g.
+#[inline(always)]
+fn seen<S: Real>(
+    (equation, coupling, wheel): (&AnyEquation<S>, S, Option<usize>),
+    side: S,
+    motion: Motion<S>,
+    ground: S,
+) -> Snapshot<S> {
+    let Motion { rotation, velocity, acceleration } = motion;
+    // Without a θ̇² term the terminals' acceleration is ℓ times what it is given.
+    let terminal_velocity = equation.terminal_acceleration(side, rotation, S::ZERO, velocity);
+    let mut device = Account::NOTHING;
+    if let Some(wheel) = wheel {
+        let terminal = equation.terminal_acceleration(side, rotation, velocity, acceleration);
+        device.force[wheel] = coupling * terminal;
+        device.engaged[wheel] = true;
+        device.spin[wheel] = terminal_velocity;
+        device.stored = S::HALF * coupling * terminal_velocity * terminal_velocity;
+        device.spent.kinematics = equation.paper_power(side, rotation, velocity);
+    }
+    Snapshot { motion, ground: [ground, S::ZERO, S::ZERO], terminal_velocity, device }
 }
 
 #[cfg(test)]
