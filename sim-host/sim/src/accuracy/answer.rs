@@ -26,6 +26,25 @@ impl Closeness {
     }
 }
 
+/// How runs of one motion at two tolerances lay their steps, which decides what their difference says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steps {
+    /// As long as the series or the ground allows; where the ground allows less, a smaller tolerance changes next to nothing.
+    Free,
+    /// Of equal length, which a smaller tolerance always makes smaller.
+    Equal,
+}
+
+impl Steps {
+    /// Relative difference up to which a check repeats the result; `floor` is the error that no comparison can exclude.
+    fn repeat_within(self, floor: f64) -> f64 {
+        match self {
+            Steps::Free => floor,
+            Steps::Equal => 0.0,
+        }
+    }
+}
+
 /// A result that says what of it can be compared.
 pub trait Comparable {
     /// How it may end.
@@ -60,11 +79,15 @@ const AS_CLOSE: [f64; 2] = [0.1 * TIGHT, 0.01 * TIGHT];
 /// What a tolerance shrinks to when the error was too large.
 const NEXT: f64 = 1e-3;
 
-/// Follows a motion by `run`, and again to learn the error, until that is as small as `accuracy` asks.
+/// Follows a motion by `run`, which lays `steps`, and again to learn the error, until that is as small as `accuracy` asks.
 ///
 /// # Errors
 /// The errors of `run`.
-pub fn answer<R: Comparable, F>(accuracy: Accuracy, mut run: impl FnMut(Closeness) -> Result<R, F>) -> Result<Answer<R>, F> {
+pub fn answer<R: Comparable, F>(
+    accuracy: Accuracy,
+    steps: Steps,
+    mut run: impl FnMut(Closeness) -> Result<R, F>,
+) -> Result<Answer<R>, F> {
     let mut tolerance = accuracy.tolerance();
     loop {
         let closeness = Closeness { tolerance };
@@ -73,11 +96,13 @@ pub fn answer<R: Comparable, F>(accuracy: Accuracy, mut run: impl FnMut(Closenes
         let mut check = |tolerance| -> Result<Compared<R::Outcome>, F> { Ok(run(Closeness { tolerance })?.compared()) };
         let error = if tolerance > 100.0 * TIGHT {
             let closer = (CLOSER * tolerance).clamp(AS_CLOSE[0], LARGEST_CHECK);
+            let how = Checks::Closer(closer);
+            let (_, floor) = how.margins();
             let mut checks = vec![check(closer)?];
-            if checks[0].repeats(&found) {
+            if found.repeats(&checks[0], steps.repeat_within(floor)) {
                 checks.push(check(AS_CLOSE[0])?);
             }
-            ErrorEstimate::of(&found, &checks, Checks::Closer(closer))
+            ErrorEstimate::of(&found, &checks, how)
         } else {
             ErrorEstimate::of(&found, &[check(AS_CLOSE[0])?, check(AS_CLOSE[1])?], Checks::AsClose)
         };
@@ -114,7 +139,7 @@ mod tests {
     }
 
     fn third(accuracy: Accuracy, margin: f64) -> Answer<Third> {
-        answer::<_, ()>(accuracy, |closeness| Ok(Third { error: 1e3 * closeness.tolerance, margin })).unwrap()
+        answer::<_, ()>(accuracy, Steps::Free, |closeness| Ok(Third { error: 1e3 * closeness.tolerance, margin })).unwrap()
     }
 
     #[test]
@@ -133,17 +158,32 @@ mod tests {
         assert!(third(Accuracy::Fast, 1.0).as_wanted, "a level asks for no error");
     }
 
-    /// Steps that no tolerance limits make one run of many tolerances, all of which err alike.
+    /// Steps that no tolerance limits make one run of many tolerances, or nearly one, all of which err alike.
     #[test]
     fn a_run_is_not_its_own_check() {
-        let third = |tolerance: f64| if tolerance > 1e-11 { 1e-5 } else { 10.0 * tolerance };
-        let run = |closeness: Closeness| Ok::<_, ()>(Third { error: third(closeness.tolerance), margin: 1.0 });
-        for accuracy in [Accuracy::Fast, Accuracy::Error(1e-2), Accuracy::Error(1e-6), Accuracy::Error(1e-9), Accuracy::Normal] {
-            let found = answer(accuracy, run).unwrap();
-            let error = found.result.error;
-            assert!(found.error.peak_rotation >= error, "{accuracy}: {:?} for {error}", found.error);
-            assert!(found.as_wanted);
+        for drift in [0.0, 1e-6] {
+            let third = |tolerance: f64| if tolerance > 1e-11 { 1e-5 + drift * tolerance } else { 10.0 * tolerance };
+            let run = |closeness: Closeness| Ok::<_, ()>(Third { error: third(closeness.tolerance), margin: 1.0 });
+            let wanted = [1e-2, 1e-6, 1e-9].map(Accuracy::Error);
+            for accuracy in wanted.into_iter().chain([Accuracy::Fast, Accuracy::Normal]) {
+                let found = answer(accuracy, Steps::Free, run).unwrap();
+                let error = found.result.error;
+                assert!(found.error.peak_rotation >= error, "{accuracy}, {drift}: {:?} for {error}", found.error);
+                assert!(found.as_wanted);
+            }
         }
+    }
+
+    /// A third run of a loop takes some six hundred steps to a tick.
+    #[test]
+    fn equal_steps_that_agree_have_converged() {
+        let mut runs = 0;
+        let run = |closeness: Closeness| {
+            runs += 1;
+            Ok::<_, ()>(Third { error: 1e-6 * closeness.tolerance, margin: 1.0 })
+        };
+        let found = answer(Accuracy::Fast, Steps::Equal, run).unwrap();
+        assert!(found.error.peak_rotation >= found.result.error && runs == 2, "{:?}, {runs} runs", found.error);
     }
 
     #[test]

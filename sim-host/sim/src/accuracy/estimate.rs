@@ -38,10 +38,12 @@ impl<O: PartialEq> Compared<O> {
         self.outcome == other.outcome && self.first_impact_time.is_some() == other.first_impact_time.is_some()
     }
 
-    /// Whether something is equal in both to the last bit: steps that no tolerance limits make the same run of two tolerances, which says
-    /// nothing about the error of either.
-    pub fn repeats(&self, other: &Compared<O>) -> bool {
-        let same = |value: fn(&Compared<O>) -> Option<f64>| value(self).is_some() && value(self) == value(other);
+    /// Whether something is equal in both to `within` of it: steps that no tolerance limits make nearly the same run of two tolerances,
+    /// which says nothing about the error of either.
+    pub fn repeats(&self, other: &Compared<O>, within: f64) -> bool {
+        let same = |value: fn(&Compared<O>) -> Option<f64>| {
+            value(self).zip(value(other)).is_some_and(|(own, other)| (own - other).abs() <= within * own.abs())
+        };
         same(|of| of.peak_rotation) || same(|of| of.peak_acceleration) || same(|of| of.first_impact_time)
     }
 }
@@ -57,7 +59,7 @@ pub enum Checks {
 
 impl Checks {
     /// By how much differences are enlarged, and the relative error that no comparison can exclude.
-    fn margins(self) -> (f64, f64) {
+    pub(super) fn margins(self) -> (f64, f64) {
         match self {
             Checks::Closer(tolerance) => (1.5, 1e-14 + 100.0 * tolerance),
             Checks::AsClose => (6.0, 4e-15),

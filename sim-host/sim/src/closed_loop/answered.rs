@@ -12,7 +12,7 @@ use super::disturbance::Disturbance;
 use super::driver::Driver;
 use super::plant::Extremes;
 use super::run::{Ending, TickObserver};
-use crate::accuracy::answer::{Comparable, answer};
+use crate::accuracy::answer::{Comparable, Steps, answer};
 use crate::accuracy::{Answer, Compared};
 use crate::simulation::ErrorReport;
 use crate::simulation::demand::Demand;
@@ -96,7 +96,7 @@ impl<'a> LoopTask<'a> {
             return Ok((self, None, looped));
         };
         let closer = |closeness| run(&LoopTask { closeness: Some(closeness), ..self });
-        let found: Answer<Looped<T>> = answer(level, closer)?;
+        let found: Answer<Looped<T>> = answer(level, Steps::Equal, closer)?;
         let task = LoopTask { closeness: Some(found.closeness), ..self };
         Ok((task, Some(ErrorReport::of(&found)), found.result))
     }

@@ -20,7 +20,7 @@ use super::watchers::Watchers;
 #[cfg(feature = "effects")]
 use super::{compliant, sliding};
 use super::{ideal, machine};
-use crate::accuracy::answer::Comparable;
+use crate::accuracy::answer::{Comparable, Steps};
 use crate::accuracy::{Accuracy, answer};
 use crate::ground_motion::GroundMotion;
 use crate::interrupt::Interrupt;
@@ -191,7 +191,7 @@ impl<'a> Task<'a> {
     /// Its run as accurately as `level` asks, with its error; that of a device with a memory is looked at by a second method.
     fn answer(&self, level: Accuracy) -> Result<DeviceRun, Failure> {
         let mut scene = self.scene.clone();
-        let mut found = answer(level, |closeness| {
+        let mut found = answer(level, Steps::Free, |closeness| {
             scene.file.accuracy = AccuracyTable::as_close(closeness);
             Task { scene: &scene, ..*self }.run()
         })?;
