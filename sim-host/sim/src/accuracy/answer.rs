@@ -31,15 +31,25 @@ impl Closeness {
 pub enum Steps {
     /// As long as the series or the ground allows; where the ground allows less, a smaller tolerance changes next to nothing.
     Free,
+    /// As [`Steps::Free`], of a device with a memory: steps that end at the same events share a part of their error.
+    BetweenEvents,
     /// Of equal length, which a smaller tolerance always makes smaller.
     Equal,
 }
 
 impl Steps {
+    /// What differences are taken times.
+    fn factor(self) -> f64 {
+        match self {
+            Steps::BetweenEvents => 2.0,
+            Steps::Free | Steps::Equal => 1.0,
+        }
+    }
+
     /// Relative difference up to which a check repeats the result; `floor` is the error that no comparison can exclude.
     fn repeat_within(self, floor: f64) -> f64 {
         match self {
-            Steps::Free => floor,
+            Steps::Free | Steps::BetweenEvents => floor,
             Steps::Equal => 0.0,
         }
     }
@@ -94,7 +104,7 @@ pub fn answer<R: Comparable, F>(
         let result = run(closeness)?;
         let found = result.compared();
         let mut check = |tolerance| -> Result<Compared<R::Outcome>, F> { Ok(run(Closeness { tolerance })?.compared()) };
-        let error = if tolerance > 100.0 * TIGHT {
+        let mut error = if tolerance > 100.0 * TIGHT {
             let closer = (CLOSER * tolerance).clamp(AS_CLOSE[0], LARGEST_CHECK);
             let how = Checks::Closer(closer);
             let (_, floor) = how.margins();
@@ -106,6 +116,7 @@ pub fn answer<R: Comparable, F>(
         } else {
             ErrorEstimate::of(&found, &[check(AS_CLOSE[0])?, check(AS_CLOSE[1])?], Checks::AsClose)
         };
+        error.enlarge(steps.factor());
         let as_wanted = accuracy.wanted().is_none_or(|wanted| error.relative(found.peak_rotation) <= wanted);
         if as_wanted || tolerance <= TIGHT {
             return Ok(Answer { result, error, closeness, as_wanted });

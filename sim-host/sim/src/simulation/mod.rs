@@ -14,6 +14,8 @@ pub mod device_run;
 pub mod drive;
 pub mod energy;
 #[cfg(all(test, feature = "effects"))]
+mod error_tests;
+#[cfg(all(test, feature = "effects"))]
 mod friction_tests;
 mod ideal;
 #[cfg_attr(not(feature = "effects"), path = "no_machine.rs")]

@@ -36,9 +36,6 @@ const SAMPLES: f64 = 2000.0;
 /// Most samples that a history may have.
 const MOST_SAMPLES: f64 = 5e6;
 
-/// What the difference of two runs of a device with a memory is taken times: steps that end at the same events share a part of their error.
-const BETWEEN_EVENTS: f64 = 2.0;
-
 /// Step of the second method that looks at a result, in 1/p.
 const SECOND_STEP: f64 = 0.02;
 
@@ -191,12 +188,12 @@ impl<'a> Task<'a> {
     /// Its run as accurately as `level` asks, with its error; that of a device with a memory is looked at by a second method.
     fn answer(&self, level: Accuracy) -> Result<DeviceRun, Failure> {
         let mut scene = self.scene.clone();
-        let mut found = answer(level, Steps::Free, |closeness| {
+        let steps = if self.is_ideal() { Steps::Free } else { Steps::BetweenEvents };
+        let mut found = answer(level, steps, |closeness| {
             scene.file.accuracy = AccuracyTable::as_close(closeness);
             Task { scene: &scene, ..*self }.run()
         })?;
         if !self.is_ideal() {
-            found.error.enlarge(BETWEEN_EVENTS);
             let elastic = matches!(self.device().drivetrain.engagement, Engagement::Elastic { .. });
             let method = if elastic { MethodName::ExponentialMidpoint } else { MethodName::RungeKutta4 };
             scene.file.output.energy = false;
