@@ -56,7 +56,7 @@ fn supply(shares: &Shares) -> f64 {
 }
 
 /// Draws the energy ledgers of `runs` as an SVG document: one panel a device over a shared time axis, in shares of the barrier
-/// to overturning.
+/// to overturning. The axis ends with the longest run or ledger; until then, ledgers of blocks that stand keep their last values.
 ///
 /// Areas from the bottom are what is gone, by where it went, and what is there: stored in the device, potential and kinetic. The
 /// line is what was put in, so that a ledger that closes has the line on top of its areas. Energy that the paper's kinematics
@@ -75,11 +75,16 @@ pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Resul
     for run in runs {
         check(run)?;
     }
-    let end = runs.iter().map(|run| run.end_time_s).fold(0.0, f64::max);
+    let mut ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(ledger).collect();
+    // Flywheels may turn on where the block rests.
+    let lasts = ledgers.iter().filter_map(|ledger| ledger.last()).map(|sample| sample.0);
+    let end = runs.iter().map(|run| run.end_time_s).chain(lasts).fold(0.0, f64::max);
     if end <= 0.0 {
         return Err(PlotError::EmptyTimeSpan);
     }
-    let ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(|run| ledger(run, end)).collect();
+    for (_, ledger) in runs.iter().zip(&mut ledgers).filter(|(run, _)| !run.outcome.overturned()) {
+        ledger.extend(ledger.last().map(|&(_, last)| (end, last)));
+    }
     let layers = layers();
 
     let mut stack = Stack::new(&title, &keys(&ledgers, &layers), 0.0..end);
@@ -120,14 +125,12 @@ fn check(run: &DeviceRun) -> Result<(), PlotError> {
     check_order(&run.device, history().map(|sample| sample.0))
 }
 
-/// What is drawn of a run's ledger: to `end` (s), or to where the block has passed 2α for good.
-fn ledger(run: &DeviceRun, end: f64) -> Vec<(f64, Shares)> {
+/// What is drawn of a run's ledger: all, or up to where the block has passed 2α for good.
+fn ledger(run: &DeviceRun) -> Vec<(f64, Shares)> {
     let mut samples = run.energy.as_ref().map_or_else(Vec::new, |energy| energy.history.clone());
     if run.outcome.overturned() {
         let shown = samples.iter().rposition(|(_, shares)| shares.potential >= 0.0).map_or(0, |last| last + 1);
         samples.truncate(shown);
-    } else if let Some(&(_, last)) = samples.last() {
-        samples.push((end, last));
     }
     samples
 }
@@ -197,6 +200,8 @@ fn keys(ledgers: &[Vec<(f64, Shares)>], layers: &[Layer]) -> [Vec<LegendEntry>; 
 mod tests {
     use super::*;
     use crate::plot::assert_drawn;
+    use crate::plot::layer::units;
+    use crate::plot::stack::{LEFT_PX, PANELS_PX};
     use sprag_shared::observers::ledger::Entries;
     use sprag_shared::observers::outcome::Outcome;
     use sprag_sim::history::History;
@@ -258,6 +263,23 @@ mod tests {
         assert!(svg.contains("gone in impacts") && svg.contains(">potential<") && svg.contains(">kinetic<"));
         for absent in ["brakes", "clutches", "bearings", "the rack", "stored", "created", "kinematics"] {
             assert!(!svg.contains(absent), "{absent}");
+        }
+    }
+
+    #[test]
+    fn a_ledger_that_goes_on_while_its_block_rests_stays_in_its_frame() {
+        let short = DeviceRun { end_time_s: 4.0, ..run("turns on", Outcome::Safe, swinging(500, false)) };
+        let over = DeviceRun { end_time_s: 3.0, ..run("over", Outcome::OverturnedAfterImpact, swinging(500, true)) };
+        let svg = energy_figure("", &[short, over]).unwrap();
+        assert_drawn(&svg);
+        let (left, right) = (units(LEFT_PX), units(LEFT_PX + PANELS_PX));
+        let curves =
+            svg.lines().filter_map(|line| line.strip_prefix("<path d=\"M")).filter(|line| line.matches('L').count() > 100);
+        let curves: Vec<&str> = curves.filter_map(|line| line.split('"').next()).collect();
+        assert_eq!(curves.len(), 2);
+        for curve in curves {
+            let across: Vec<i32> = curve.split(['M', 'L']).filter_map(|point| point.split(' ').next()?.parse().ok()).collect();
+            assert!(across.is_sorted() && across.iter().all(|x| (left..=right).contains(x)), "{curve}");
         }
     }
 
