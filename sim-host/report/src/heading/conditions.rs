@@ -36,16 +36,22 @@ pub fn of_scenes(scenes: &[&Scene]) -> Vec<String> {
     let Some((first, others)) = scenes.split_first() else { return Vec::new() };
     let (mut block, mut grounds) = (block(first), grounds(first));
     let mut ratios = mass_ratios(first);
-    let inerters = ratios.iter().filter(|ratio| ratio.1.is_some()).count();
+    let mut inerters: Vec<bool> = ratios.iter().map(|ratio| ratio.1.is_some()).collect();
     for other in others {
         let of_other = self::grounds(other);
         for (own, other) in grounds.iter_mut().zip(&of_other).chain([(&mut block, &self::block(other))]) {
             own.values.retain(|value| other.values.contains(value));
         }
         let of_other = mass_ratios(other);
-        ratios.iter_mut().zip(of_other).filter(|(own, other)| *own != other).for_each(|(own, _)| own.1 = None);
+        for ((own, other), inerter) in ratios.iter_mut().zip(of_other).zip(&mut inerters) {
+            *inerter |= other.1.is_some();
+            if *own != other {
+                own.1 = None;
+            }
+        }
     }
-    block.values.extend(of_mass_ratios(&ratios, inerters));
+    // Where σ is zero in one scene, a device has one all the same.
+    block.values.extend(of_mass_ratios(&ratios, inerters.into_iter().filter(|inerter| *inerter).count()));
     let mut conditions: Vec<String> = block.parts().collect();
     if let [_] = &grounds[..] {
         conditions.extend(grounds.into_iter().flat_map(Phrase::parts));
@@ -211,6 +217,16 @@ mod tests {
         let sum = of_scene(&scene(&format!("{SINE}, {{ motion = 'ricker', {frequency} }}"), ""));
         let last = sum.last().unwrap();
         assert!(last.starts_with("one-cycle sine (*a*_g = 8") && last.contains(") + Ricker wavelet (*a*_g = 0.5 g"), "{last}");
+    }
+
+    #[test]
+    fn a_mass_ratio_that_is_zero_in_one_scene_leaves_those_of_the_others_theirs() {
+        for values in [["0.0", "1.0"], ["1.0", "0.0"]] {
+            let scenes = values.map(|value| scene(SINE, &format!("device.1.mass_ratio={value}")));
+            let all = of_scenes(&scenes.each_ref());
+            let ratios: Vec<&String> = all.iter().filter(|condition| condition.contains('σ')).collect();
+            assert_eq!(ratios, ["σ of clutched pair = 0.5"]);
+        }
     }
 
     #[test]
