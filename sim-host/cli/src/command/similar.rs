@@ -197,7 +197,7 @@ fn figure(blocks: &[Block]) -> Result<String, PlotError> {
         x: Scale::Linear,
         panels: (0..first.runs.len()).map(panel).collect(),
         columns: 1,
-        keys: Vec::new(),
+        ..Chart::default()
     })
 }
 

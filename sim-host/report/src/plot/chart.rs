@@ -74,6 +74,8 @@ pub struct Chart {
     pub x_title: String,
     /// Horizontal axis, the same for all panels.
     pub x: Scale,
+    /// Two values, in the unit of that axis, that it shows whether or not there are points at them.
+    pub x_range: Option<(f64, f64)>,
     /// Panels, row by row.
     pub panels: Vec<ChartPanel>,
     /// Panels in a row; zero counts as one.
@@ -103,11 +105,19 @@ pub enum ChartKey {
 /// [`PlotError`] without panels, when no point of the figure or of a panel can be shown, and for numbers that are not finite.
 pub fn chart_figure(chart: &Chart) -> Result<String, PlotError> {
     let nothing = || PlotError::NothingToDraw { title: chart.title.text.clone() };
+    if chart.panels.is_empty() {
+        return Err(nothing());
+    }
     let mut panels: Vec<Vec<Vec<(f64, f64)>>> = Vec::new();
     for panel in &chart.panels {
         panels.push(panel.lines.iter().map(|line| shown(line, chart.x, panel.y)).collect::<Result<_, _>>()?);
     }
-    let x = axis_range(panels.iter().flatten().flatten().map(|point| point.0), chart.x).ok_or_else(nothing)?;
+    let ends: Vec<f64> = chart.x_range.into_iter().flat_map(<[f64; 2]>::from).collect();
+    if !ends.iter().all(|end| drawable(*end)) {
+        return Err(PlotError::NotFiniteValue { name: chart.x_title.clone() });
+    }
+    let ends = ends.into_iter().filter_map(|end| chart.x.place(end));
+    let x = axis_range(panels.iter().flatten().flatten().map(|point| point.0).chain(ends), chart.x).ok_or_else(nothing)?;
     let looks = Looks::new(chart);
 
     let columns = chart.columns.clamp(1, chart.panels.len().max(1));
@@ -291,7 +301,7 @@ mod tests {
             x: scale,
             panels: ["one", "two & a half", "three"].map(panel).to_vec(),
             columns,
-            keys: Vec::new(),
+            ..Chart::default()
         }
     }
 
@@ -327,6 +337,23 @@ mod tests {
     }
 
     #[test]
+    fn an_axis_shows_the_range_that_was_asked_for_beyond_its_points() {
+        for (scale, range, tick) in [(Scale::Linear, (-500.0, 3000.0), ">3000<"), (Scale::Logarithmic, (0.1, 1e6), ">6</tspan>")]
+        {
+            let mut chart = chart(scale, 1);
+            assert!(!chart_figure(&chart).unwrap().contains(tick));
+            chart.x_range = Some(range);
+            let svg = chart_figure(&chart).unwrap();
+            assert_drawn(&svg);
+            assert!(svg.contains(tick));
+            chart.x_range = Some((1.0, 512.0));
+            let within = chart_figure(&chart).unwrap();
+            chart.x_range = None;
+            assert_eq!(within, chart_figure(&chart).unwrap());
+        }
+    }
+
+    #[test]
     fn what_cannot_be_drawn_is_refused() {
         assert!(matches!(chart_figure(&Chart::default()), Err(PlotError::NothingToDraw { .. })));
         for bad in [f64::NAN, f64::INFINITY, f64::MIN] {
@@ -334,5 +361,9 @@ mod tests {
             chart.panels[1].lines[1].points[3].1 = bad;
             assert_eq!(chart_figure(&chart), Err(PlotError::NotFiniteValue { name: "fourth order".to_owned() }));
         }
+        let range = Chart { x_range: Some((1.0, f64::NAN)), ..chart(Scale::Linear, 1) };
+        assert_eq!(chart_figure(&range), Err(PlotError::NotFiniteValue { name: "steps".to_owned() }));
+        let empty = Chart { x_range: Some((1.0, 2.0)), ..Chart::default() };
+        assert!(matches!(chart_figure(&empty), Err(PlotError::NothingToDraw { .. })));
     }
 }

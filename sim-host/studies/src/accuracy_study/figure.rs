@@ -105,7 +105,7 @@ impl Plan {
         let columns = panels.len().min(2);
         let title = FigureTitle { text: format!("{title}: {}", self.shows), conditions: self.note(rows).into_iter().collect() };
         let (x_title, x, keys) = (self.axes[0].to_owned(), Scale::Logarithmic, self.keys(rows));
-        let chart = Chart { title, x_title, x, panels, columns, keys };
+        let chart = Chart { title, x_title, x, panels, columns, keys, ..Chart::default() };
         (!chart.panels.is_empty()).then(|| Ok((self.name, chart_figure(&chart)?)))
     }
 }

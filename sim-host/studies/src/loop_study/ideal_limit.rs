@@ -105,7 +105,7 @@ pub fn ideal_limit(progress: &Progress, conditions: &Conditions<'_>) -> Result<R
         x: Scale::Logarithmic,
         panels: vec![panel],
         columns: 1,
-        keys: Vec::new(),
+        ..Chart::default()
     };
     report.figure("ideal-limit", "error over control period", chart_figure(&chart)?);
     Ok(report)

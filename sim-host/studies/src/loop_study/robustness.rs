@@ -212,7 +212,7 @@ fn add(
     report.table(&name, table);
     if !panels.is_empty() {
         let (title, x_title, x) = (sweep.heading.to_owned(), sweep.axis.to_owned(), sweep.scale);
-        let chart = Chart { title: title.into(), x_title, x, columns: panels.len(), panels, keys: Vec::new() };
+        let chart = Chart { title: title.into(), x_title, x, columns: panels.len(), panels, ..Chart::default() };
         report.figure(&name, sweep.heading, chart_figure(&chart)?);
     }
     Ok(())

@@ -149,9 +149,11 @@ fn cut(grid: &Grid, tally: &Tally) -> Result<String, PlotError> {
         title: title(grid, ""),
         x_title: axis_title(&grid.scene, &grid.map.x.key),
         x: scale(&grid.map.x),
+        // Where all devices overturn at an end, the axis shows it all the same.
+        x_range: Some((grid.map.x.value(0), grid.map.x.value(grid.columns() - 1))),
         panels,
         columns: 1,
-        keys: Vec::new(),
+        ..Chart::default()
     })
 }
 
@@ -180,6 +182,11 @@ mod tests {
 
     /// The cut of a scene with three devices, in all cells of which those that `overturn` do so.
     fn cut_where(overturn: [bool; 3]) -> Result<String, PlotError> {
+        cut_of(|device, _| overturn[device])
+    }
+
+    /// The same, with the devices and cells that overturn.
+    fn cut_of(overturns: impl Fn(usize, usize) -> bool) -> Result<String, PlotError> {
         let scene = "
             title = 'Cut'
             block = { frequency_parameter_1_s = 2.0, slenderness_deg = 12.0 }
@@ -190,8 +197,8 @@ mod tests {
         let grid = Grid::new(Scene::of_table(text.clone(), "scene").unwrap(), text).unwrap();
         let mut tally = Tally::new(&grid);
         for row in 0..grid.table_rows() {
-            let outcome = if overturn[row / 5] { Outcome::OverturnedAfterImpact } else { Outcome::Safe };
-            tally.add(row, PulseResult { outcome, peak_rotation: 0.1 + row as f64, peak_acceleration: 1.0 });
+            let outcome = if overturns(row / 5, row % 5) { Outcome::OverturnedAfterImpact } else { Outcome::Safe };
+            tally.add(row, PulseResult { outcome, peak_rotation: 0.1 + 0.01 * row as f64, peak_acceleration: 1.0 });
         }
         let [("cut", svg)] = <[_; 1]>::try_from(figures(&grid, &tally)).unwrap() else { panic!("a cut is one picture") };
         svg
@@ -207,6 +214,16 @@ mod tests {
         assert!(all.contains(BLUE) && !all.contains("overturns throughout"));
         assert_eq!(two.matches("none (overturns throughout)").count(), 1);
         assert_eq!(cut_where([true; 3]), Err(PlotError::AllOverturn));
+    }
+
+    #[test]
+    fn a_cut_shows_its_range_where_all_devices_overturn_at_an_end() {
+        let ticks = |svg: &str| [">2<", ">4<", ">6<", ">8<"].map(|tick| svg.matches(tick).count());
+        let (all, low) = (cut_where([false; 3]).unwrap(), cut_of(|_, cell| cell > 1).unwrap());
+        assert_drawn(&low);
+        assert_eq!(ticks(&low), [2; 4]);
+        assert_eq!(ticks(&low), ticks(&all));
+        assert_eq!(ticks(&cut_of(|_, cell| cell < 3).unwrap()), ticks(&all));
     }
 
     #[test]
