@@ -48,7 +48,8 @@ pub fn closed_loop(scene: &Scene, faults: &[(String, f64)]) -> Result<Columns, P
     let numbers = |pick: fn(&Tick) -> f64| Column::Numbers(ticks.iter().map(pick).collect());
     let codes = |pick: fn(&Tick) -> u8| Column::Codes(ticks.iter().map(pick).collect());
     let fault = |tick: &Tick| tick.decision.fault.map_or(0, |fault| fault.code());
-    let figure = loop_figure(title(scene), &LoopTrace::of(&report, &scene.block)).map_err(PageError::failed)?;
+    let trace = LoopTrace::of(&report, &scene.block);
+    let figure = loop_figure(title(scene), &trace, scene.file.output.time_axis.into()).map_err(PageError::failed)?;
     let mut csv = Vec::new();
     write_history(std::slice::from_ref(&report), &mut csv).map_err(PageError::failed)?;
     Ok(vec![

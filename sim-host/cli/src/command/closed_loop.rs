@@ -110,7 +110,8 @@ impl Run for LoopArguments {
         report.summary(input, &desk.ground.records, &warnings, &subject, answer)?;
         report.file("history.csv", |file| write_history(&reports, file).map_err(std::io::Error::other))?;
         for (number, closed) in reports.iter().enumerate() {
-            let picture = loop_figure(heading(&desk.scene, closed), &LoopTrace::of(closed, &desk.scene.block));
+            let trace = LoopTrace::of(closed, &desk.scene.block);
+            let picture = loop_figure(heading(&desk.scene, closed), &trace, desk.scene.file.output.time_axis.into());
             report.picture(&numbered("loop", number), picture)?;
         }
         runs.iter().for_each(|run| report.print(run));

@@ -81,7 +81,8 @@ impl Run for HilArguments {
             let mut trace = LoopTrace::of(&run.report, &desk.scene.block);
             let alpha = desk.scene.block.slenderness();
             trace.rotation_host = run.host.iter().map(|tick| (tick.plant.time, tick.plant.motion.rotation / alpha)).collect();
-            report.picture(&numbered("loop", number), loop_figure(heading(&desk.scene, &run.report), &trace))?;
+            let axes = desk.scene.file.output.time_axis.into();
+            report.picture(&numbered("loop", number), loop_figure(heading(&desk.scene, &run.report), &trace, axes))?;
             if let Some(log) = run.log {
                 let name = numbered("log", number) + ".txt";
                 report.file(&name, |file| log.iter().try_for_each(|line| writeln!(file, "{line}")))?;

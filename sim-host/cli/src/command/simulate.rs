@@ -90,10 +90,11 @@ impl Run for SimulateArguments {
         let input = SceneInput { scene: &scene.file };
         report.summary(input, &ground.records, &warnings, &subject, Answer { monte_carlo: scattered, runs: &runs })?;
         report.file("history.csv", |file| write_csv(&histories, file).map_err(std::io::Error::other))?;
-        let picture = report.picture("history", history_figure(title(&scene), &histories, scene.file.output.time_axis.into()))?;
+        let axes = scene.file.output.time_axis.into();
+        let picture = report.picture("history", history_figure(title(&scene), &histories, axes))?;
         if scene.file.output.energy {
             report.file("energy.csv", |file| write_energy(&runs, file).map_err(std::io::Error::other))?;
-            report.picture("energy", energy_figure(title(&scene), &runs))?;
+            report.picture("energy", energy_figure(title(&scene), &runs, axes, scene.block.frequency_parameter()))?;
         }
         report.print(device_table(&runs).for_terminal());
         scattered.iter().flat_map(|all| all.iter()).for_each(|device| report.print(device.line()));

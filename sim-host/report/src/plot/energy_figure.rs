@@ -14,7 +14,7 @@ use super::panel::Panel;
 use super::stack::Stack;
 use super::ticks::drawable;
 use super::time_axis::check_order;
-use super::{FigureTitle, PlotError};
+use super::{FigureTitle, PlotError, TimeAxis};
 
 const PANEL_PX: f64 = 150.0;
 /// Room above a panel for the name of its device, together with the gap.
@@ -56,7 +56,8 @@ fn supply(shares: &Shares) -> f64 {
 }
 
 /// Draws the energy ledgers of `runs` as an SVG document: one panel a device over a shared time axis, in shares of the barrier
-/// to overturning. The axis ends with the longest run or ledger; until then, ledgers of blocks that stand keep their last values.
+/// to overturning. `frequency_parameter_1_s` is p of their block (1/s). The axis ends with the longest run or ledger; until then, ledgers
+/// of blocks that stand keep their last values.
 ///
 /// Areas from the bottom are what is gone, by where it went, and what is there: stored in the device, potential and kinetic. The
 /// line is what was put in, so that a ledger that closes has the line on top of its areas. Energy that the paper's kinematics
@@ -66,19 +67,24 @@ fn supply(shares: &Shares) -> f64 {
 /// The text is the same for the same input, and long ledgers are thinned to the width of the panels.
 ///
 /// # Errors
-/// [`PlotError`] when no run has a ledger, without a time span, and for numbers that are not finite or out of time order.
-pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Result<String, PlotError> {
+/// [`PlotError`] when no run has a ledger, without a time span, for numbers that are not finite or out of time order, and over p t for a
+/// block without positive frequency parameter.
+pub fn energy_figure(
+    title: impl Into<FigureTitle>,
+    runs: &[DeviceRun],
+    axes: TimeAxis,
+    frequency_parameter_1_s: f64,
+) -> Result<String, PlotError> {
     let title = title.into();
-    if runs.iter().all(|run| run.energy.is_none()) {
-        return Err(PlotError::NoHistories);
-    }
+    let Some(first) = runs.iter().find(|run| run.energy.is_some()) else { return Err(PlotError::NoHistories) };
+    let scale = axes.scale_of(&first.device, frequency_parameter_1_s)?;
     for run in runs {
         check(run)?;
     }
-    let mut ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(ledger).collect();
+    let mut ledgers: Vec<Vec<(f64, Shares)>> = runs.iter().map(|run| ledger(run, scale)).collect();
     // Flywheels may turn on where the block rests.
     let lasts = ledgers.iter().filter_map(|ledger| ledger.last()).map(|sample| sample.0);
-    let end = runs.iter().map(|run| run.end_time_s).chain(lasts).fold(0.0, f64::max);
+    let end = runs.iter().map(|run| scale * run.end_time_s).chain(lasts).fold(0.0, f64::max);
     if end <= 0.0 {
         return Err(PlotError::EmptyTimeSpan);
     }
@@ -96,7 +102,7 @@ pub fn energy_figure(title: impl Into<FigureTitle>, runs: &[DeviceRun]) -> Resul
         let at = (panel.left_px, panel.top_px - 6.0);
         Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(svg, false);
         write_areas(svg, &panel, ledger, &layers);
-        panel.write_axes(svg, (index + 1 == runs.len()).then_some("time (s)"));
+        panel.write_axes(svg, (index + 1 == runs.len()).then_some(axes.title()));
         let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
         write_curve(svg, &panel, &line, Stroke::solid(INK));
         if run.outcome.overturned()
@@ -125,9 +131,10 @@ fn check(run: &DeviceRun) -> Result<(), PlotError> {
     check_order(&run.device, history().map(|sample| sample.0))
 }
 
-/// What is drawn of a run's ledger: all, or up to where the block has passed 2α for good.
-fn ledger(run: &DeviceRun) -> Vec<(f64, Shares)> {
-    let mut samples = run.energy.as_ref().map_or_else(Vec::new, |energy| energy.history.clone());
+/// What is drawn of a run's ledger, with times that `scale` multiplies: all, or up to where the block has passed 2α for good.
+fn ledger(run: &DeviceRun, scale: f64) -> Vec<(f64, Shares)> {
+    let history = run.energy.iter().flat_map(|energy| &energy.history);
+    let mut samples: Vec<(f64, Shares)> = history.map(|&(time_s, shares)| (scale * time_s, shares)).collect();
     if run.outcome.overturned() {
         let shown = samples.iter().rposition(|(_, shares)| shares.potential >= 0.0).map_or(0, |last| last + 1);
         samples.truncate(shown);
@@ -254,7 +261,7 @@ mod tests {
             run("over", Outcome::OverturnedAfterImpact, swinging(500, true)),
             run("rest", Outcome::NoRocking, Vec::new()),
         ];
-        let svg = energy_figure("A <title>", &runs).unwrap();
+        let svg = energy_figure("A <title>", &runs, TimeAxis::Seconds, 2.0).unwrap();
         assert_drawn(&svg);
         assert_eq!(svg.matches("rotate(-90 ").count(), 3);
         assert_eq!(svg.matches(">overturns<").count(), 1);
@@ -270,7 +277,7 @@ mod tests {
     fn a_ledger_that_goes_on_while_its_block_rests_stays_in_its_frame() {
         let short = DeviceRun { end_time_s: 4.0, ..run("turns on", Outcome::Safe, swinging(500, false)) };
         let over = DeviceRun { end_time_s: 3.0, ..run("over", Outcome::OverturnedAfterImpact, swinging(500, true)) };
-        let svg = energy_figure("", &[short, over]).unwrap();
+        let svg = energy_figure("", &[short, over], TimeAxis::Seconds, 2.0).unwrap();
         assert_drawn(&svg);
         let (left, right) = (units(LEFT_PX), units(LEFT_PX + PANELS_PX));
         let curves =
@@ -288,7 +295,7 @@ mod tests {
         let with = |kinematics: f64| {
             let add = |(time, shares): (f64, Shares)| (time, Shares { kinematics, ..shares });
             let history = swinging(100, false).into_iter().map(add).collect();
-            energy_figure("", &[run("one", Outcome::Safe, history)]).unwrap()
+            energy_figure("", &[run("one", Outcome::Safe, history)], TimeAxis::Seconds, 2.0).unwrap()
         };
         let (taken, given) = (with(0.25), with(-0.25));
         assert!(taken.contains("taken by the paper's kinematics") && taken.contains("kinematics took 0.250"));
@@ -298,26 +305,47 @@ mod tests {
     }
 
     #[test]
+    fn over_p_t_all_curves_stay_at_their_places() {
+        let runs =
+            [run("one", Outcome::Safe, swinging(500, false)), run("over", Outcome::OverturnedAfterImpact, swinging(500, true))];
+        let drawn = |axes| {
+            let svg = energy_figure("", &runs, axes, 2.0).unwrap();
+            assert_drawn(&svg);
+            let shapes = svg.lines().filter(|line| !line.starts_with("<text") && !line.contains("v40") && !line.contains("v-40"));
+            (shapes.map(str::to_owned).collect::<Vec<String>>(), svg.contains("time (s)"), svg.contains(">20<"))
+        };
+        // A p of 2 1/s is exact, so that ten seconds are 20.
+        let (seconds, over_p_t) = (drawn(TimeAxis::Seconds), drawn(TimeAxis::TimesFrequencyParameter));
+        assert_eq!(seconds.0, over_p_t.0);
+        assert_eq!([(seconds.1, seconds.2), (over_p_t.1, over_p_t.2)], [(true, false), (false, true)]);
+        let without = energy_figure("", &runs, TimeAxis::TimesFrequencyParameter, 0.0);
+        assert_eq!(without, Err(PlotError::InvalidBlock { device: "one".to_owned() }));
+    }
+
+    #[test]
     fn long_ledgers_stay_small_and_the_bytes_repeat() {
         let runs = [run("long", Outcome::Safe, swinging(200_000, false))];
-        let svg = energy_figure("", &runs).unwrap();
+        let svg = energy_figure("", &runs, TimeAxis::Seconds, 2.0).unwrap();
         assert_drawn(&svg);
         assert!(svg.len() < 300_000, "{}", svg.len());
-        assert_eq!(svg, energy_figure("", &runs).unwrap());
+        assert_eq!(svg, energy_figure("", &runs, TimeAxis::Seconds, 2.0).unwrap());
     }
 
     #[test]
     fn what_cannot_be_drawn_is_refused() {
-        assert_eq!(energy_figure("", &[]), Err(PlotError::NoHistories));
+        assert_eq!(energy_figure("", &[], TimeAxis::Seconds, 2.0), Err(PlotError::NoHistories));
         let mut without = run("none", Outcome::Safe, Vec::new());
         without.energy = None;
-        assert_eq!(energy_figure("", &[without]), Err(PlotError::NoHistories));
+        assert_eq!(energy_figure("", &[without], TimeAxis::Seconds, 2.0), Err(PlotError::NoHistories));
         let mut history = swinging(100, false);
         history[50].1.kinetic = f64::NAN;
-        let broken = energy_figure("", &[run("one", Outcome::Safe, history.clone())]);
+        let broken = energy_figure("", &[run("one", Outcome::Safe, history.clone())], TimeAxis::Seconds, 2.0);
         assert!(matches!(broken, Err(PlotError::NotFinite { .. })));
         history[50].1.kinetic = 0.0;
         history.swap(3, 30);
-        assert!(matches!(energy_figure("", &[run("one", Outcome::Safe, history)]), Err(PlotError::TimeGoesBack { .. })));
+        assert!(matches!(
+            energy_figure("", &[run("one", Outcome::Safe, history)], TimeAxis::Seconds, 2.0),
+            Err(PlotError::TimeGoesBack { .. })
+        ));
     }
 }

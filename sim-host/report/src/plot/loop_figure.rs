@@ -12,18 +12,21 @@ use super::panel::{Panel, scale_around_zero};
 use super::stack::{GROUND_PANEL_PX, PANEL_PX, ROTATION_PANEL_PX, Stack};
 use super::ticks::drawable;
 use super::time_axis::{check_order, check_trace, span_of};
-use super::{FigureTitle, PlotError};
+use super::{FigureTitle, PlotError, TimeAxis};
 
 /// What the law wants: no flywheel in particular.
 const LAW: Colour = GROUND;
 /// Estimates beyond this many times the largest true value are cut off.
 const ESTIMATE_REACH: f64 = 1.5;
+const LOOP: &str = "closed loop";
 const IDEAL: &str = "ideal pair";
 const HOST: &str = "host's own loop";
 
 /// A closed loop over time. All vectors but `rotation_ideal`, `rotation_host` and `faults` have the length of `time`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoopTrace {
+    /// Frequency parameter p of the block (1/s).
+    pub frequency_parameter_1_s: f64,
     /// Time (s), in order.
     pub time: Vec<f64>,
     /// Ground acceleration (g).
@@ -64,17 +67,23 @@ pub struct LoopTrace {
 /// The text is the same for the same input, and long traces are thinned to the width of the panels.
 ///
 /// # Errors
-/// [`PlotError`] for vectors of different lengths, without a time span, for numbers that are not finite and times out of order.
-pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<String, PlotError> {
+/// [`PlotError`] for vectors of different lengths, without a time span, for numbers that are not finite, times out of order, and over p t
+/// for a block without positive frequency parameter.
+pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace, axes: TimeAxis) -> Result<String, PlotError> {
     let title = title.into();
     check(trace)?;
-    let x = span_of(trace.time.iter().copied())?;
+    let scale = axes.scale_of(LOOP, trace.frequency_parameter_1_s)?;
+    let time: Vec<f64> = trace.time.iter().map(|time| scale * time).collect();
+    let x = span_of(time.iter().copied())?;
     let inside = |time: f64| time >= x.start && time <= x.end;
-    let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> { points.iter().copied().filter(|point| inside(point.0)).collect() };
+    let shown = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+        points.iter().map(|point| (scale * point.0, point.1)).filter(|point| inside(point.0)).collect()
+    };
     let (ideal, host) = (shown(&trace.rotation_ideal), shown(&trace.rotation_host));
-    let keys = keys(trace, !ideal.is_empty(), trace.faults.iter().any(|fault| inside(fault.0)));
+    let faults: Vec<(f64, String)> = trace.faults.iter().map(|(time, text)| (scale * time, text.clone())).collect();
+    let keys = keys(trace, !ideal.is_empty(), faults.iter().any(|fault| inside(fault.0)));
     let mut stack = Stack::new(&title, &keys, x);
-    let faults = Faults::new(&mut stack, &trace.faults);
+    let faults = Faults::new(&mut stack, &faults);
 
     let peak = trace.rotation.iter().chain(ideal.iter().map(|point| &point.1)).fold(0.0_f64, |peak, value| peak.max(value.abs()));
     let limit = half_height(peak);
@@ -90,19 +99,19 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
 
     let svg = &mut stack.svg;
     let extent = (rotation_panel.top_px, rotation_panel.height_px);
-    write_flywheels(svg, &rotation_panel, extent, (&trace.time, &trace.engaged), FLYWHEEL_TINTS);
+    write_flywheels(svg, &rotation_panel, extent, (&time, &trace.engaged), FLYWHEEL_TINTS);
     for panel in [&ground_panel, &rotation_panel, &velocity_panel, &push_panel] {
         panel.write_axes(svg, None);
     }
     write_lane(svg, &lanes, (0, &["law on the", "true motion"]), |svg, extent| {
-        write_state(svg, &lanes, extent, (&trace.time, LAW), |index| trace.ideal[index]);
+        write_state(svg, &lanes, extent, (&time, LAW), |index| trace.ideal[index]);
     });
     for (lane, name, states) in [(1, "command", &trace.commanded), (2, "clutches", &trace.engaged)] {
         write_lane(svg, &lanes, (lane, &[name]), |svg, extent| {
-            write_flywheels(svg, &lanes, extent, (&trace.time, states), FLYWHEEL_BARS);
+            write_flywheels(svg, &lanes, extent, (&time, states), FLYWHEEL_BARS);
         });
     }
-    lanes.write_frame(svg, Some("time (s)"));
+    lanes.write_frame(svg, Some(axes.title()));
     faults.write(svg, lanes.bottom_px());
 
     let curves: [(&Panel<'_>, &[f64], Stroke); 6] = [
@@ -115,7 +124,7 @@ pub fn loop_figure(title: impl Into<FigureTitle>, trace: &LoopTrace) -> Result<S
     ];
     write_curve(svg, &rotation_panel, &host, host_stroke());
     for (panel, values, stroke) in curves {
-        let points: Vec<(f64, f64)> = trace.time.iter().copied().zip(values.iter().copied()).collect();
+        let points: Vec<(f64, f64)> = time.iter().copied().zip(values.iter().copied()).collect();
         write_curve(svg, panel, &points, stroke);
     }
     write_curve(svg, &rotation_panel, &ideal, ideal_stroke());
@@ -151,7 +160,7 @@ fn check(trace: &LoopTrace) -> Result<(), PlotError> {
         ("push_estimated", &trace.push_estimated),
     ];
     let states = [("engaged", trace.engaged.len()), ("commanded", trace.commanded.len()), ("ideal", trace.ideal.len())];
-    check_trace("closed loop", &trace.time, &values, &states, &trace.faults)?;
+    check_trace(LOOP, &trace.time, &values, &states, &trace.faults)?;
     for (name, curve) in [(IDEAL, &trace.rotation_ideal), (HOST, &trace.rotation_host)] {
         if let Some(&(time_s, _)) = curve.iter().find(|(time, rotation)| !(drawable(*time) && drawable(*rotation))) {
             return Err(PlotError::NotFinite { device: name.to_owned(), time_s });
@@ -201,6 +210,7 @@ mod tests {
         let time: Vec<f64> = (0..count).map(|index| 2.0 * index as f64 / (count.max(2) - 1) as f64).collect();
         let wave: Vec<f64> = time.iter().map(|time| (3.0 * time).fract() - 0.5).collect();
         LoopTrace {
+            frequency_parameter_1_s: 2.0,
             ground_g: wave.clone(),
             rotation: wave.clone(),
             rotation_ideal: vec![(-1.0, 9.0), (0.0, 0.0), (0.7, 0.4), (5.0, 9.0)],
@@ -219,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_loop_is_well_formed_and_repeats_to_the_byte() {
-        let svg = loop_figure("A <title> & more", &trace(4000)).unwrap();
+        let svg = loop_figure("A <title> & more", &trace(4000), TimeAxis::Seconds).unwrap();
         assert_drawn(&svg);
         assert!(svg.contains("A &lt;title&gt; &amp; more") && svg.contains("no &lt;pulses&gt; &amp; more"));
         for name in ["true motion", "command", "clutches", "ideal pair", "second flywheel", "wanted by the law"] {
@@ -229,39 +239,60 @@ mod tests {
         // What Eq. 10 looks at is D: θ̈ has the inertia of what is engaged in it.
         assert!(svg.contains(&formula("*D*/(*p*²α)")) && !svg.contains(&formula("θ''")));
         assert_eq!(svg.matches("rotate(-90 ").count(), 4);
-        assert_eq!(svg, loop_figure("A <title> & more", &trace(4000)).unwrap());
+        assert_eq!(svg, loop_figure("A <title> & more", &trace(4000), TimeAxis::Seconds).unwrap());
+    }
+
+    #[test]
+    fn over_p_t_everything_stays_at_its_place_across() {
+        // A p of 2 1/s is exact, so that all but title, ticks and labels of the axis is the same.
+        let drawn = |svg: &str| -> Vec<String> {
+            svg.lines()
+                .filter(|line| !line.starts_with("<text") && !line.contains("v40") && !line.contains("v-40"))
+                .map(str::to_owned)
+                .collect()
+        };
+        let [seconds, over_p_t] =
+            [TimeAxis::Seconds, TimeAxis::TimesFrequencyParameter].map(|axes| loop_figure("", &trace(400), axes).unwrap());
+        assert_drawn(&over_p_t);
+        assert_eq!(drawn(&seconds), drawn(&over_p_t));
+        assert!(seconds.contains("time (s)") && !over_p_t.contains("time (s)"));
+        assert!(over_p_t.contains(&formula(TimeAxis::TimesFrequencyParameter.title())));
+        // Two seconds are p t = 4.
+        assert!(over_p_t.contains(">4.0<") && !seconds.contains(">4.0<"));
+        let without = LoopTrace { frequency_parameter_1_s: 0.0, ..trace(400) };
+        assert!(matches!(loop_figure("", &without, TimeAxis::TimesFrequencyParameter), Err(PlotError::InvalidBlock { .. })));
     }
 
     #[test]
     fn long_and_short_traces_draw() {
-        let long = loop_figure("", &trace(200_000)).unwrap();
+        let long = loop_figure("", &trace(200_000), TimeAxis::Seconds).unwrap();
         assert_drawn(&long);
         assert!(long.len() < 500_000, "{}", long.len());
         let bare = LoopTrace { rotation_ideal: Vec::new(), faults: Vec::new(), ..trace(2) };
-        let svg = loop_figure("", &bare).unwrap();
+        let svg = loop_figure("", &bare, TimeAxis::Seconds).unwrap();
         assert_drawn(&svg);
         assert!(!svg.contains("ideal pair") && !svg.contains("fault"));
     }
 
     #[test]
     fn what_cannot_be_drawn_is_refused() {
-        assert_eq!(loop_figure("", &LoopTrace::default()), Err(PlotError::EmptyTimeSpan));
-        assert_eq!(loop_figure("", &trace(1)), Err(PlotError::EmptyTimeSpan));
+        assert_eq!(loop_figure("", &LoopTrace::default(), TimeAxis::Seconds), Err(PlotError::EmptyTimeSpan));
+        assert_eq!(loop_figure("", &trace(1), TimeAxis::Seconds), Err(PlotError::EmptyTimeSpan));
         let mut broken = trace(100);
         broken.commanded.pop();
         let wrong = PlotError::WrongLength { name: "commanded".to_owned(), found: 99, expected: 100 };
-        assert_eq!(loop_figure("", &broken), Err(wrong));
+        assert_eq!(loop_figure("", &broken, TimeAxis::Seconds), Err(wrong));
         let mut broken = trace(100);
         broken.push_estimated[5] = f64::NAN;
-        assert!(matches!(loop_figure("", &broken), Err(PlotError::NotFinite { .. })));
+        assert!(matches!(loop_figure("", &broken, TimeAxis::Seconds), Err(PlotError::NotFinite { .. })));
         let mut broken = trace(100);
         broken.time.swap(3, 30);
-        assert!(matches!(loop_figure("", &broken), Err(PlotError::TimeGoesBack { .. })));
+        assert!(matches!(loop_figure("", &broken, TimeAxis::Seconds), Err(PlotError::TimeGoesBack { .. })));
         let mut broken = trace(100);
         broken.rotation_ideal.swap(0, 1);
-        assert!(matches!(loop_figure("", &broken), Err(PlotError::TimeGoesBack { .. })));
+        assert!(matches!(loop_figure("", &broken, TimeAxis::Seconds), Err(PlotError::TimeGoesBack { .. })));
         let mut broken = trace(100);
         broken.faults[0].0 = f64::INFINITY;
-        assert!(matches!(loop_figure("", &broken), Err(PlotError::NotFinite { .. })));
+        assert!(matches!(loop_figure("", &broken, TimeAxis::Seconds), Err(PlotError::NotFinite { .. })));
     }
 }

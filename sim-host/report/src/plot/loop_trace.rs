@@ -14,6 +14,7 @@ impl LoopTrace {
         let each = |pick: &dyn Fn(&Tick) -> f64| report.ticks.iter().map(pick).collect::<Vec<f64>>();
         let codes = |pick: &dyn Fn(&Tick) -> u8| report.ticks.iter().map(pick).collect::<Vec<u8>>();
         LoopTrace {
+            frequency_parameter_1_s: p,
             time: each(&|tick| tick.plant.time),
             ground_g: each(&|tick| tick.plant.ground[0]),
             rotation: each(&|tick| tick.plant.motion.rotation / alpha),

@@ -36,6 +36,12 @@ impl TimeAxis {
         }
     }
 
+    /// The same for the block of `device`, which is refused where no axis comes of its `p`.
+    pub(super) fn scale_of(self, device: &str, p: f64) -> Result<f64, PlotError> {
+        let scale = self.scale(p);
+        if scale > 0.0 && drawable(scale) { Ok(scale) } else { Err(PlotError::InvalidBlock { device: device.to_owned() }) }
+    }
+
     /// The axis title, in the markup of [`super::layer::formula`].
     pub(super) fn title(self) -> &'static str {
         match self {
