@@ -20,6 +20,9 @@ const LANE_BAR_PX: f64 = 3.0;
 const NOTE: &str = "overturns";
 const NOTE_FONT_PX: f64 = 10.5;
 
+/// Half the width, and the height, of the mark where a block overturns (px).
+const OVERTURN_PX: (f64, f64) = (3.5, 6.0);
+
 /// Legend entries of the devices, and of the marks that the figure actually shows.
 pub(super) fn device_keys(traces: &[DeviceTrace]) -> [Vec<LegendEntry>; 2] {
     let mut marks = Vec::new();
@@ -124,10 +127,17 @@ fn thinned(panel: &Panel<'_>, impacts: &[f64]) -> Vec<f64> {
 
 /// Appends a mark and the word "overturns" where a block's curve leaves the panel for good.
 ///
-/// Words move away from the edge, row by row, until they overlap no earlier word.
+/// Words move away from the edge, row by row, until they overlap no mark and no earlier word.
 pub(super) fn write_overturns(svg: &mut String, panel: &Panel<'_>, traces: &[DeviceTrace]) {
     let width = text_width_px(NOTE, NOTE_FONT_PX);
-    let mut taken: Vec<(f64, f64)> = Vec::new();
+    let first_baseline = |up: bool, y: f64| if up { y + NOTE_FONT_PX } else { y - 3.0 };
+    let (half_px, height_px) = OVERTURN_PX;
+    // Left and right ends, and baselines; a mark is in the first row.
+    let mark = |point: (f64, f64)| {
+        let (x, y) = panel.position_px(point);
+        (x - half_px, x + half_px, first_baseline(point.1 >= 0.0, y))
+    };
+    let mut taken: Vec<(f64, f64, f64)> = traces.iter().filter_map(|trace| trace.overturn).map(mark).collect();
     for trace in traces {
         let Some(point) = trace.overturn else {
             continue;
@@ -137,26 +147,26 @@ pub(super) fn write_overturns(svg: &mut String, panel: &Panel<'_>, traces: &[Dev
         let outward = if up { -1 } else { 1 };
         svg.push_str(&format!(
             "<path d=\"M{} {}h{}l{} {}z\" fill=\"{}\"/>\n",
-            units(x - 3.5),
-            units(y) - outward * units(6.0),
-            units(7.0),
-            -units(3.5),
-            outward * units(6.0),
+            units(x - half_px),
+            units(y) - outward * units(height_px),
+            units(2.0 * half_px),
+            -units(half_px),
+            outward * units(height_px),
             hex(trace.look.colour),
         ));
 
         // The curve comes from the left, so the free space is on the right unless the frame is near.
         let left = if x + 6.0 + width <= panel.right_px() { x + 6.0 } else { x - 8.0 - width };
         let row_px = NOTE_FONT_PX + 2.0;
-        let first = if up { y + NOTE_FONT_PX } else { y - 3.0 };
+        let first = first_baseline(up, y);
         let rows = (panel.height_px / row_px) as usize;
         let baseline = (0..rows)
             .map(|row| first - f64::from(outward) * row as f64 * row_px)
             .find(|baseline| {
-                taken.iter().all(|other| (other.0 - left).abs() > width || (other.1 - baseline).abs() > 0.95 * row_px)
+                taken.iter().all(|other| other.0 > left + width || other.1 < left || (other.2 - baseline).abs() > 0.95 * row_px)
             })
             .unwrap_or(first);
-        taken.push((left, baseline));
+        taken.push((left, left + width, baseline));
         Text {
             colour: trace.look.colour,
             attributes: " paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"30\"",
@@ -169,9 +179,40 @@ pub(super) fn write_overturns(svg: &mut String, panel: &Panel<'_>, traces: &[Dev
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::TimeAxis;
+    use crate::plot::synthetic::overturning;
 
     fn panel() -> Panel<'static> {
         Panel::new((0.0, 0.0), (600.0, 100.0), 0.0..10.0, -1.0..1.0)
+    }
+
+    #[test]
+    fn no_word_covers_the_mark_of_another_device() {
+        let history = overturning("none", 100);
+        let trace = |(index, overturn)| DeviceTrace {
+            overturn: Some(overturn),
+            ..DeviceTrace::new(index, &history, TimeAxis::Seconds, 1.0)
+        };
+        // Words right of their marks at the upper edge, and left of them at the lower, where the frame is near.
+        let at = [(5.0, 1.0), (5.4, 1.0), (5.4, 1.0), (9.9, -1.0), (9.5, -1.0)];
+        let traces: Vec<DeviceTrace> = at.into_iter().enumerate().map(trace).collect();
+        let mut svg = String::new();
+        write_overturns(&mut svg, &panel(), &traces);
+        let numbers = |line: &str| -> Vec<i32> {
+            line.split(|letter: char| !letter.is_ascii_digit() && letter != '-')
+                .filter_map(|number| number.parse().ok())
+                .collect()
+        };
+        // x, y, width, half of it, height; and x, y.
+        let marks: Vec<Vec<i32>> = svg.lines().filter(|line| line.starts_with("<path")).map(numbers).collect();
+        let words: Vec<Vec<i32>> = svg.lines().filter(|line| line.starts_with("<text")).map(numbers).collect();
+        assert_eq!((marks.len(), words.len()), (5, 5));
+        for (word, mark) in words.iter().flat_map(|word| marks.iter().map(move |mark| (word, mark))) {
+            let across = word[0] < mark[0] + mark[2] && mark[0] < word[0] + units(text_width_px(NOTE, NOTE_FONT_PX));
+            let (low, high) = (mark[1].min(mark[1] + mark[4]), mark[1].max(mark[1] + mark[4]));
+            let up = word[1] - units(0.7 * NOTE_FONT_PX) < high && low < word[1];
+            assert!(!(across && up), "{word:?} covers {mark:?}");
+        }
     }
 
     #[test]
