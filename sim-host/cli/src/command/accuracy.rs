@@ -74,7 +74,8 @@ impl Run for AccuracyCommandArguments {
         folder.open(&claim)?;
         warnings.extend(context.warned(warning_lines(&ground.records)));
         let board = if self.qemu { Some(measure(self.image.as_deref())?) } else { None };
-        let progress = Progress::new("runs");
+        // In stages, whose runs are of no one length.
+        let progress = Progress::of_unknown_length("runs");
         let extent = Extent { cells: self.cells.into(), smallest_step: self.smallest_step };
         let rows = study(&scene, &ground, extent, board.as_ref(), &progress, context.interrupt);
         progress.finish();

@@ -166,7 +166,8 @@ fn designed(
     // Where the results go is tried before the work, not after it.
     folder.open(&claim)?;
     let pool = arguments.threads.pool()?;
-    let progress = Progress::new("runs");
+    // Device by device, and delays only where the runs without them call for any.
+    let progress = Progress::of_unknown_length("runs");
     let (begin, done) = (|runs: usize| progress.begin(runs as u64), || progress.step());
     let problem = Problem::new(&scene, &arguments.device, arguments.basis.basis(&scene))?;
     let findings = pool.install(|| problem.solve(&read.motions, interrupt, &begin, &done));

@@ -106,7 +106,7 @@ impl Run for LoopStudyArguments {
         folder.open(&Claim { subject: subject.clone(), page: &page, names: &[&name], inputs })?;
         let warnings = context.warned([named.passed_over, warning_lines(&read)].concat());
         let (pool, interrupt) = (self.threads.pool()?, context.interrupt);
-        let progress = Progress::new("runs");
+        let progress = self.progress();
         let found = self.accuracy.levels(context, |accuracy| {
             let conditions = Conditions::new(accuracy, interrupt);
             let made = pool.install(|| match self.study {
@@ -140,6 +140,16 @@ impl Run for LoopStudyArguments {
         report.print(made.page.for_terminal());
         report.accuracy(worst);
         report.finish(context)
+    }
+}
+
+impl LoopStudyArguments {
+    fn progress(&self) -> Progress {
+        match self.study {
+            // All other studies go in stages, and know their runs stage by stage; a time budget runs a study again.
+            Study::Decisions if !self.accuracy.is_chosen() => Progress::new("runs"),
+            _ => Progress::of_unknown_length("runs"),
+        }
     }
 }
 

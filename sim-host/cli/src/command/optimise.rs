@@ -168,7 +168,8 @@ fn answered<'a>(
 ) -> anyhow::Result<Answered<'a>> {
     let study = arguments.input.load(change)?;
     let choices = Choices::of(&study)?;
-    let progress = Progress::new("runs");
+    // Where the search goes on depends on what it finds.
+    let progress = Progress::of_unknown_length("runs");
     let problem = Problem::new(choices, &records.records);
     let file = arguments.input.study.display();
     if problem.motions.is_empty() {

@@ -98,10 +98,10 @@ fn drawn(text: &str) -> Vec<&str> {
     parts.filter(|part| !part.is_empty()).collect()
 }
 
-/// The counts other than 0 that were shown, such as the 12,000 of "12,000 of 262,144 cells".
+/// The counts other than 0 that were shown, such as the 12,000 of "12,000 of 262,144 cells" and of "12,000 runs so far".
 fn counts(text: &str) -> BTreeSet<u64> {
     let count = |line: &str| {
-        let (before, _) = line.split_once(" of ").or_else(|| line.split_once(" blocks (at most"))?;
+        let (before, _) = [" of ", " blocks (at most", " runs so far"].into_iter().find_map(|then| line.split_once(then))?;
         before.rsplit(' ').next()?.replace(',', "").parse().ok().filter(|count| *count > 0)
     };
     drawn(text).into_iter().filter(|line| !line.starts_with("sprag: warning: ")).filter_map(count).collect()
@@ -159,6 +159,11 @@ fn stopped(folder: &Path, arguments: &[&str], by: &str, message: &str) -> String
     assert_eq!(code, if by == "Ctrl-C" { 130 } else { 143 }, "{arguments:?}: {text:?}");
     tidy(&text, message);
     text
+}
+
+/// Work in stages, whose end is not known beforehand, says how long it has taken and nothing of what is left.
+fn says_no_time_left(text: &str) {
+    assert!(text.contains(" runs so far, ") && !text.contains(" left"), "{text:?}");
 }
 
 /// The same command with --resume keeps what is in the file of `rows`, also when it is stopped at once.
@@ -228,7 +233,7 @@ fn optimise_keeps_its_rows_and_resumes() {
     records(folder.path(), 100);
     let study = scene("optimise");
     let arguments = ["optimise", &study, "--out", "optimise", "--threads", "1", "--records", "records"];
-    stopped(folder.path(), &arguments, "Ctrl-C", "the same command with --resume continues");
+    says_no_time_left(&stopped(folder.path(), &arguments, "Ctrl-C", "the same command with --resume continues"));
     resumes(folder.path(), &arguments, "optimise/tried.csv.unfinished");
 }
 
@@ -255,7 +260,10 @@ fn commands_that_keep_no_rows_say_so() {
         (&["accuracy", &figure, "--out", "accuracy"], "Ctrl-C"),
     ];
     for (arguments, by) in long {
-        stopped(path, arguments, by, "nothing was written");
+        let text = stopped(path, arguments, by, "nothing was written");
+        if ["design", "loop-study", "accuracy"].contains(&arguments[0]) {
+            says_no_time_left(&text);
+        }
     }
     assert!(!path.join("results.csv").exists() && !path.join("sensitivity/summary.json").exists());
     assert!(!path.join("design/summary.json").exists());
