@@ -7,7 +7,7 @@ use sprag_loops::Method;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 
 use super::error::SceneError;
-use super::schema::KeyOf;
+use super::schema::{KeyOf, SceneFile};
 use crate::accuracy::{Accuracy, Closeness};
 
 /// How a scene is integrated.
@@ -209,6 +209,20 @@ impl AccuracyTable {
             let reason = "exponential-midpoint is for elastic clutches, and no device has one: give a clutch.stiffness_ratio or \
                           another method";
             return Err(key("accuracy.method").conflict(reason));
+        }
+        Ok(())
+    }
+
+    /// Refuses what `file` asks of every instant, where events are looked at once a step and nobody watches between them.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`] names the key.
+    pub(super) fn check_watched(&self, file: &SceneFile, key: &KeyOf<'_>) -> Result<(), SceneError> {
+        if self.events == EventTreatment::StepEnd && file.output.energy {
+            return Err(key("output.energy").conflict("the ledger needs accuracy.events = \"located\""));
+        }
+        if self.events == EventTreatment::StepEnd && file.checks.is_some() {
+            return Err(key("checks").conflict("the checks need accuracy.events = \"located\""));
         }
         Ok(())
     }

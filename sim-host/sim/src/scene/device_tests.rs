@@ -447,6 +447,16 @@ fn methods_for_ideal_devices_are_refused_beyond_them() {
 }
 
 #[test]
+fn what_is_watched_between_steps_needs_located_events() {
+    let step_end = ["accuracy.method=semi-implicit-euler", "accuracy.step_ratio=1e-3", "accuracy.events=step-end"];
+    for (item, key) in [("output.energy=true", "output.energy"), ("checks={ friction_coefficient = 0.4 }", "checks")] {
+        refused(&[step_end[0], step_end[1], step_end[2], item], &[&format!("{key}: "), "accuracy.events = \"located\""]);
+        assert!(parsed(&[step_end[0], step_end[1], item]).is_ok(), "{item}");
+    }
+    assert!(parsed(&[step_end[0], step_end[1], step_end[2], "output.energy=false"]).is_ok());
+}
+
+#[test]
 fn impacts_may_balance_momentum() {
     let scene = parsed(&["block.restitution=momentum-balance"]).unwrap();
     assert_eq!(scene.restitution, Restitution::MomentumBalance);

@@ -145,6 +145,7 @@ impl Scene {
         file.accuracy.check(&key)?;
         let elastic = devices.iter().any(|device| matches!(device.drivetrain.engagement, Engagement::Elastic { .. }));
         file.accuracy.check_devices(&key, first_beyond_ideal(&file, &devices).as_deref(), elastic)?;
+        file.accuracy.check_watched(&file, &key)?;
         if let Some(checks) = &file.checks {
             checks.check(file.block.mass_kg, &key)?;
         }
