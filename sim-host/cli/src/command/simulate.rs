@@ -64,6 +64,11 @@ pub struct SimulateArguments {
 impl Run for SimulateArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         let mut folder = self.output.folder_at(&self.scene.scene, "simulate", &self.accuracy)?;
+        let formats = self.output.formats("simulate")?;
+        anyhow::ensure!(
+            !self.open || formats.svg || formats.png,
+            "--open: there is no picture to show without svg or png in --formats"
+        );
         let asked = self.scene.load(None)?;
         if self.monte_carlo.is_some() {
             impact_specimens::check(&asked)?;
@@ -113,9 +118,9 @@ impl Run for SimulateArguments {
         let ending = report.finish(context)?;
         if self.open
             && let Some(picture) = picture
-            && let Err(error) = open::that_detached(&picture)
+            && open::that_detached(&picture).is_err()
         {
-            context.note(format_args!("the picture cannot be shown: {error}"));
+            context.note(format_args!("{}: written, but there is no program that could show it", picture.display()));
         }
         Ok(ending)
     }

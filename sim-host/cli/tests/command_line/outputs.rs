@@ -145,7 +145,7 @@ fn single_results_are_replaced_by_the_same_command_or_when_asked() {
     well(batch(&[]));
     well(batch(&[]));
     // With other columns, of other cases, and what is no result.
-    declined(&batch(&["--accuracy", "fast"]), &["results.csv", "--overwrite"]);
+    declined(&batch(&["--accuracy", "fast"]), &["results.csv", "the same input and options", "--overwrite"]);
     fs::write(&cases, one_case().replace("one,full", "two,full")).unwrap();
     declined(&batch(&[]), &["results.csv", "--overwrite"]);
     assert!(fs::read_to_string(&results).unwrap().contains("\none,"));

@@ -105,3 +105,23 @@ fn the_help_says_what_each_exit_code_means() {
         assert!(codes.contains(words), "`{words}`: {codes}");
     }
 }
+
+#[test]
+fn a_picture_that_cannot_be_shown_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let simulate = &lines(folder.path())[0];
+    let refused = run(folder.path(), simulate, &["--formats", "csv", "--open"]);
+    assert_eq!(refused.status.code(), Some(2), "{}", said(&refused));
+    assert!(said(&refused).contains("--open: there is no picture to show without svg or png"), "{}", said(&refused));
+    assert!(!folder.path().join("out").exists());
+    // Only there are all programs that show pictures found by the search path.
+    if cfg!(target_os = "linux") {
+        let nobody = tempfile::tempdir().unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_sprag"));
+        command.current_dir(&folder).env("PATH", nobody.path()).args(simulate).args(["--out", "out", "--open"]);
+        let shown = command.output().unwrap();
+        let picture = Path::new("out").join("history.svg");
+        let line = format!("sprag: {}: written, but there is no program that could show it", picture.display());
+        assert!(shown.status.success() && said(&shown).lines().any(|said| said == line), "{}", said(&shown));
+    }
+}

@@ -163,7 +163,7 @@ pub fn open_stream(path: &Path) -> Result<Option<File>, OutputError> {
 }
 
 /// Refuses `path` as the one result of a command when it cannot be written, when it is one of `inputs`, and when a file is there that is not
-/// `same`, a result of the same command and input, unless it is to be overwritten.
+/// `same`, a result of the same command, input and options, unless it is to be overwritten.
 ///
 /// # Errors
 /// [`OutputError`] says which.
@@ -181,7 +181,9 @@ pub fn claim_file(
             }
             let file = File::open(path).map_err(|error| OutputError::new(path, &error))?;
             if !overwrite && present.len() > 0 && !same(BufReader::new(file)) {
-                return refuse(format!("a file is there that is not a result of the same input; {REPLACE}"));
+                return refuse(format!(
+                    "a file is there that this command did not write from the same input and options; {REPLACE}"
+                ));
             }
             // Whether there is room beside it.
             Written::new(path).map(drop)
