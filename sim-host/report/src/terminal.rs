@@ -2,8 +2,6 @@
 
 use console::{Term, measure_text_width};
 
-use crate::lines::in_lines;
-
 /// What a line that goes on below is indented by, beyond its beginning.
 const INDENT: &str = "  ";
 
@@ -15,8 +13,23 @@ pub(crate) fn room() -> usize {
 }
 
 /// `text` in lines of at most `width`, broken at spaces; a single word may still be too wide.
-pub(crate) fn broken(text: &str, width: usize) -> Vec<String> {
-    in_lines(text.split(' '), " ", |line, word| measure_text_width(line) + 1 + measure_text_width(word) <= width)
+fn broken(text: &str, width: usize) -> Vec<String> {
+    in_lines_of(width, text.split_inclusive(' '))
+}
+
+/// `pieces`, each with the spaces after it, in lines of at most `width` without the spaces that end them; a single piece may still be too wide.
+pub(crate) fn in_lines_of<'a>(width: usize, pieces: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for piece in pieces {
+        let shown = piece.trim_end_matches(' ');
+        match lines.last_mut() {
+            Some(line) if shown.is_empty() || measure_text_width(line) + measure_text_width(shown) <= width => {
+                line.push_str(piece)
+            }
+            _ => lines.push(piece.to_owned()),
+        }
+    }
+    lines.into_iter().map(|line| line.trim_end_matches(' ').to_owned()).collect()
 }
 
 /// `text` as wide as standard output where that is a terminal: lines that are wider go on below, indented.
@@ -48,5 +61,13 @@ mod tests {
         assert_eq!(within(text, 20), "short\n\n  better than no\n    device: 19.0 %\n    fewer\n");
         assert_eq!(within(text, 3).split_whitespace().count(), text.split_whitespace().count());
         assert_eq!(within("θ/α θ/α θ/α", 11), "θ/α θ/α θ/α");
+    }
+
+    #[test]
+    fn a_line_that_goes_on_below_begins_with_a_word() {
+        assert_eq!(within("  key        default      allowed", 20), "  key\n    default\n    allowed");
+        assert_eq!(within("  key        default      allowed", 31), "  key        default\n    allowed");
+        // What fits stays as it is.
+        assert_eq!(within("  key        default      allowed", 33), "  key        default      allowed");
     }
 }

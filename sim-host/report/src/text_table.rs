@@ -4,7 +4,7 @@ use console::measure_text_width;
 use sprag_sim::effect::number::true_minus;
 
 use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
-use crate::terminal::{broken, room};
+use crate::terminal::{in_lines_of, room};
 
 /// A table whose first columns are words, to the left, and the others numbers, to the right.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -96,7 +96,8 @@ impl TextTable {
     /// The `columns` alone, with these widths of all.
     fn shown(&self, columns: &[usize], widths: &[usize]) -> String {
         let row = |row: &Vec<String>| {
-            let broken: Vec<Vec<String>> = row.iter().zip(widths).map(|(cell, width)| broken(cell, *width)).collect();
+            let broken: Vec<Vec<String>> =
+                row.iter().zip(widths).map(|(cell, width)| in_lines_of(*width, pieces(cell))).collect();
             let height = columns.iter().map(|&column| broken[column].len()).max().unwrap_or(0);
             let line = |number: usize| {
                 let parts: Vec<String> = broken.iter().map(|lines| lines.get(number).cloned().unwrap_or_default()).collect();
@@ -109,12 +110,12 @@ impl TextTable {
         self.rows.iter().map(row).collect()
     }
 
-    /// `widths`, so much less for the widest of `columns` that these have `room`, but with room for every word and number.
+    /// `widths`, so much less for the widest of `columns` that these have `room`, but with room for every piece of words and every number.
     fn narrowed(&self, widths: &[usize], columns: &[usize], room: usize) -> Vec<usize> {
         let mut widths = widths.to_vec();
         let least = |column: usize| {
             let words = |(number, row): (usize, &Vec<String>)| match number == 0 || self.has_words(column) {
-                true => row[column].split(' ').map(measure_text_width).max(),
+                true => pieces(&row[column]).map(|piece| measure_text_width(piece.trim_end_matches(' '))).max(),
                 false => Some(measure_text_width(&row[column])),
             };
             self.rows.iter().enumerate().filter_map(words).max().unwrap_or(0)
@@ -174,6 +175,17 @@ impl RowWriter for Cells<'_> {
         self.text.row(self.columns.iter().zip(values).filter_map(cell).collect());
         Ok(())
     }
+}
+
+/// What of `cell` stays in one line, with the spaces after it: words, and parts of words that end with a hyphen after two letters or more,
+/// which no number has.
+fn pieces(cell: &str) -> impl Iterator<Item = &str> {
+    let mut letters = 0;
+    cell.split_inclusive(move |character: char| {
+        let ends = character == ' ' || (character == '-' && letters > 1);
+        letters = if character.is_alphabetic() { letters + 1 } else { 0 };
+        ends
+    })
 }
 
 /// Width of every column in a terminal.

@@ -44,6 +44,27 @@ fn words_and_numbers_are_never_broken() {
 }
 
 #[test]
+fn words_are_broken_after_hyphens_sooner_than_numbers_leave_their_columns() {
+    let mut table = TextTable::new(2, ["device", "outcome", "first impact (s)"]);
+    table.row(["clutched pair", "overturned-after-impact", "4.562"].map(str::to_owned).to_vec());
+    for room in 29..60 {
+        let text = table.within(room);
+        assert!(text.lines().all(|line| measure_text_width(line) <= room), "{room}: {text}");
+        assert!(["overturned-", "impact", "4.562"].iter().all(|piece| text.contains(piece)), "{room}: {text}");
+    }
+    let narrow = [
+        "device    outcome       first",
+        "                       impact",
+        "                          (s)",
+        "clutched  overturned-   4.562",
+        "pair      after-",
+        "          impact",
+    ];
+    assert_eq!(table.within(29).lines().collect::<Vec<_>>(), narrow);
+    assert_eq!(pieces("a 2.5e-3 and -1, --set x-y").count(), 6);
+}
+
+#[test]
 fn people_see_the_columns_that_have_a_heading() {
     struct Two;
     impl Table for Two {
