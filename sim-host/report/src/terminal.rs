@@ -6,7 +6,7 @@ use console::{Term, measure_text_width};
 const INDENT: &str = "  ";
 
 /// Characters in a line of standard output; without an end where that is no terminal.
-pub(crate) fn room() -> usize {
+pub fn room() -> usize {
     let terminal = Term::stdout();
     let size = if terminal.is_term() { terminal.size_checked() } else { None };
     size.map_or(usize::MAX, |(_, columns)| columns.into())
@@ -35,6 +35,16 @@ pub(crate) fn in_lines_of<'a>(width: usize, pieces: impl Iterator<Item = &'a str
 /// `text` as wide as standard output where that is a terminal: lines that are wider go on below, indented.
 pub fn for_terminal(text: &str) -> String {
     within(text, room())
+}
+
+/// `text` beside `first`, as wide as standard output where that is a terminal: what is wider goes on below `text`.
+pub fn beside(first: &str, text: &str) -> String {
+    beside_within(first, text, room())
+}
+
+fn beside_within(first: &str, text: &str, room: usize) -> String {
+    let column = measure_text_width(first);
+    first.to_owned() + &broken(text, room.saturating_sub(column)).join(&format!("\n{}", " ".repeat(column)))
 }
 
 fn within(text: &str, room: usize) -> String {
@@ -69,5 +79,12 @@ mod tests {
         assert_eq!(within("  key        default      allowed", 31), "  key        default\n    allowed");
         // What fits stays as it is.
         assert_eq!(within("  key        default      allowed", 33), "  key        default      allowed");
+    }
+
+    #[test]
+    fn text_beside_a_name_goes_on_below_itself() {
+        let mount = |room| beside_within("mount  ", "where it is tied to the block", room);
+        assert_eq!(mount(20), "mount  where it is\n       tied to the\n       block");
+        assert_eq!(mount(usize::MAX), "mount  where it is tied to the block");
     }
 }

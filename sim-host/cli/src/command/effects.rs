@@ -3,6 +3,7 @@
 use clap::Args;
 use serde::Serialize;
 use sprag_report::output::Versioned;
+use sprag_report::terminal::{beside, for_terminal, room};
 use sprag_sim::effect::measured::{Cost, cost};
 use sprag_sim::effect::{EFFECTS, Effect, find};
 use sprag_sim::keys::Key;
@@ -63,9 +64,9 @@ impl Run for EffectsArguments {
         });
         match (found.transpose()?, self.json) {
             (None, true) => context.print_json(&EFFECTS.map(|effect| Versioned::new(Entry::of(effect)))),
-            (None, false) => context.print(table()),
+            (None, false) => context.print(for_terminal(&table(room()))),
             (Some(effect), true) => context.print_json(&Versioned::new(Entry::of(effect))),
-            (Some(effect), false) => context.print(in_full(effect)),
+            (Some(effect), false) => context.print(for_terminal(&in_full(effect))),
         }
         Ok(Completion::Complete)
     }
@@ -81,8 +82,9 @@ fn cost_in_words(name: &str) -> String {
     format!("host {} instructions, {} ns{target}", cost.host_instructions, cost.host_ns)
 }
 
-/// Every effect with its keys, their defaults and its cost.
-fn table() -> String {
+/// Every effect with its keys, their defaults and its cost; in less `room` than the columns need, a key's default and what it may be go on
+/// below it.
+fn table(room: usize) -> String {
     let widest = |texts: &mut dyn Iterator<Item = usize>| texts.max().unwrap_or(0);
     let keys = || EFFECTS.into_iter().flat_map(Effect::described_keys);
     let name_width = widest(&mut EFFECTS.into_iter().map(|effect| effect.name.len()));
@@ -92,13 +94,21 @@ fn table() -> String {
         let row = format!("{name:name_width$}  {key:key_width$}  {default:default_width$}  {allowed}");
         format!("{}\n", row.trim_end())
     };
-    let mut text = row("effect", "key", "default", "allowed");
+    let beside_name = |name: &str, text: &str| beside(&format!("{name:name_width$}  "), text) + "\n";
+    let key_row = |key: &Key| row("", &key.path, &key.default_text(), &key.range);
+    let has_room = keys().all(|key| key_row(key).trim_end().chars().count() <= room);
+    let mut text = if has_room { row("effect", "key", "default", "allowed") } else { beside_name("effect", "key") };
     for effect in EFFECTS {
-        text += &format!("\n{:name_width$}  {}\n", effect.name, effect.summary);
+        text += &format!("\n{}", beside_name(effect.name, effect.summary));
         for key in effect.described_keys() {
-            text += &row("", &key.path, &key.default_text(), &key.range);
+            text += &if has_room {
+                key_row(key)
+            } else {
+                let more = format!("default {}; {}", key.default_text(), key.range);
+                beside_name("", &key.path) + &beside(&" ".repeat(name_width + 4), &more) + "\n"
+            };
         }
-        text += &row("", &format!("cost: {}", cost_in_words(effect.name)), "", "");
+        text += &beside_name("", &format!("cost: {}", cost_in_words(effect.name)));
     }
     text += "\nAll are off until a key says otherwise. `sprag effects NAME` shows the equation and its source;\n\
         costs are those of docs/effects.md.\n";

@@ -5,13 +5,14 @@ use std::io::{self, Write};
 use clap::Args;
 use serde_json::{Value, json};
 use sprag_report::output::Versioned;
+use sprag_report::terminal::{for_terminal, room};
 use sprag_sim::effect::explanation::{Effects, Explanation, Section, Setting};
 use sprag_sim::scene::Scene;
 
 use super::context::{Completion, Context, Run};
 use super::scene_arguments::SceneArguments;
 
-/// Columns that a line takes, unless a word is longer.
+/// Columns that a line takes at most, unless a word is longer.
 const WIDTH: usize = 120;
 
 /// Show which effects a scene turns on, and its equations.
@@ -38,7 +39,7 @@ impl Run for ExplainArguments {
         }
         let mut text = Vec::new();
         write_scene(&scene, &mut text)?;
-        context.print(String::from_utf8_lossy(&text));
+        context.print(for_terminal(&String::from_utf8_lossy(&text)));
         Ok(Completion::Complete)
     }
 }
@@ -91,14 +92,15 @@ fn write_effects(effects: &Effects, out: &mut impl Write) -> io::Result<()> {
     write_folded(2, &format!("effects off: {off}"), out)
 }
 
-/// Writes a line by words, indented, on as many lines of [`WIDTH`] columns as it takes.
+/// Writes a line by words, indented, on as many lines of [`WIDTH`] columns, or of a narrower terminal, as it takes.
 fn write_folded(indent: usize, text: &str, out: &mut impl Write) -> io::Result<()> {
+    let width = WIDTH.min(room());
     let mut line = " ".repeat(indent);
     let mut columns = indent;
     // Two spaces set equations apart, and are kept.
     for word in text.split(' ') {
         let length = word.chars().count();
-        if columns + 1 + length > WIDTH && columns > indent {
+        if columns + 1 + length > width && columns > indent {
             writeln!(out, "{}", line.trim_end())?;
             line = " ".repeat(indent + 2);
             columns = indent + 2;

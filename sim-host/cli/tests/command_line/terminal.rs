@@ -297,6 +297,22 @@ fn short_runs_end_well_on_a_terminal() {
     ends_well(path, &["record", "own.csv"]);
 }
 
+#[test]
+fn texts_are_as_wide_as_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let figure = scene("figure10");
+    let lines: [&[&str]; 3] = [&["effects"], &["effects", "clutch"], &["explain", &figure]];
+    for line in lines {
+        let (code, text) = sprag(folder.path(), 60, line).ended();
+        assert_eq!(code, 0, "{line:?}: {text:?}");
+        // A dot above a letter takes no column.
+        let width = |line: &str| line.chars().filter(|letter| *letter != '\u{307}' && *letter != '\u{308}').count();
+        // But the scene's own path, which has no spaces.
+        let wide = drawn(&text).into_iter().find(|line| width(line) > 60 && !line.contains(&figure));
+        assert_eq!(wide, None, "{line:?}");
+    }
+}
+
 /// A map that takes a while.
 fn slow_map(figure: &str) -> Vec<&str> {
     let cells = ["--set", "map.x.cells=3000", "--set", "map.y.cells=3000", "--out", "map"];
