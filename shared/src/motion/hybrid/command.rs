@@ -45,6 +45,11 @@ impl<S: Real> Actuator<S> {
         }
     }
 
+    /// Whether its clutches move later than they are commanded.
+    pub(super) fn is_late(&self) -> bool {
+        self.engagement_delay.larger(self.release_delay).larger(self.dwell) > S::ZERO
+    }
+
     /// Whether engagement number `count` is missed: SplitMix64 of seed and number, so that it depends on nothing else.
     pub fn misses(&self, count: u32) -> bool {
         (split_mix::word(self.seed, u64::from(count)) >> 32) < self.misses

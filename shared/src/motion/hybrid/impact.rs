@@ -104,8 +104,7 @@ impl<S: Real> HybridSystem<S> {
     /// The flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
     /// or where swings are too short for what delays their clutches, which are as in `device` before them; none where clutches follow every swing.
     fn stuck(&self, standing: &HybridState<S>, device: &DeviceState<S>) -> Option<[bool; 2]> {
-        let Actuator { engagement_delay, release_delay, dwell, controlled, .. } = self.actuator;
-        let delayed = engagement_delay.larger(release_delay).larger(dwell) > S::ZERO;
+        let Actuator { engagement_delay, release_delay, controlled, .. } = self.actuator;
         let Traits { commanded, springs, .. } = self.transmission.traits();
         // Springs give way.
         if !commanded || springs || self.is_carried(standing) {
@@ -116,7 +115,7 @@ impl<S: Real> HybridSystem<S> {
             return Some(standing.device.wheels.each_ref().map(is_locked));
         }
         // Only clutches that lock: plates give way.
-        if !delayed || self.plates().is_finite() {
+        if !self.actuator.is_late() || self.plates().is_finite() {
             return None;
         }
         let stays = |wheel: &FlywheelState<S>| match wheel.coupling {
@@ -146,7 +145,12 @@ impl<S: Real> HybridSystem<S> {
         // As it hits, the block has the flywheels that it has as it falls.
         let hits = if self.transmission.traits().through_impacts { stuck.map_or(1, count) } else { 0 };
         let restitution = self.restitution[hits.min(2) as usize];
-        Accumulation::of((out, back), (farther, home), restitution, speed, self.counted_speed)
+        let tail = Accumulation::of((out, back), (farther, home), restitution, speed, self.counted_speed);
+        let follow = self.transmission.traits().commanded
+            && !self.is_carried(standing)
+            && !self.actuator.controlled
+            && !self.actuator.is_late();
+        if follow { tail } else { tail.without_closings() }
     }
 
     /// A way of such impacts: |θ̈| (rad/s²; inward, 0 where friction holds the block at the top), and block and device on it.

@@ -102,7 +102,8 @@ impl<S: Real> IdealSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]).
     fn accumulation(&self, side: Sign, speed: S, ground: S) -> Accumulation<S> {
         let [out, back, farther, home] = ways(side).map(|way| self.bounce(way, ground).abs().larger(S::EPSILON * S::EPSILON));
-        Accumulation::of((out, back), (farther, home), self.restitution, speed, self.counted_speed)
+        let tail = Accumulation::of((out, back), (farther, home), self.restitution, speed, self.counted_speed);
+        if self.clutch.follows_signs() { tail } else { tail.without_closings() }
     }
 
     /// θ̈ (rad/s²) of a way of its bounces, inward on either.

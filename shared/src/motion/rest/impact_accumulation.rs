@@ -32,6 +32,8 @@ pub struct Accumulation<S> {
     pub swing: S,
     /// Impacts that still count.
     pub impacts: u32,
+    /// Closings of a clutch that follows the swings, in those that start faster than impacts count.
+    pub closings: u32,
     /// Largest |θ̈|, rad/s²; 0 where the block does not bounce at all.
     pub acceleration: S,
 }
@@ -56,18 +58,28 @@ impl<S: Real> Accumulation<S> {
         let largest = if ratio_here > S::ZERO { largest_here.larger(largest_there) } else { largest_here };
         let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0, acceleration };
+            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0, closings: 0, acceleration };
         }
         let duration = speed * (here + ratio_here * there) / (S::ONE - both);
-        let mut impacts = 0;
-        let mut incoming = speed * fall_here;
-        let mut first = true;
-        while incoming >= counted && impacts < 100_000 {
+        let (mut impacts, mut closings) = (0, 0);
+        let (mut outgoing, mut falls) = (speed, [fall_here, fall_there]);
+        while impacts < 100_000 {
+            let incoming = outgoing * falls[0];
+            closings += u32::from(outgoing > counted && incoming > S::ZERO);
+            if incoming < counted {
+                break;
+            }
             impacts += 1;
-            incoming = incoming * restitution * if first { fall_there } else { fall_here };
-            first = !first;
+            outgoing = incoming * restitution;
+            falls = [falls[1], falls[0]];
         }
-        Accumulation { duration, swing: speed * (here + there), impacts, acceleration }
+        Accumulation { duration, swing: speed * (here + there), impacts, closings, acceleration }
+    }
+
+    /// The same of a device whose clutches, if it has any, do not follow the swings.
+    #[must_use]
+    pub fn without_closings(self) -> Accumulation<S> {
+        Accumulation { closings: 0, ..self }
     }
 
     /// The largest |θ̈| of a motion that had `peak` before them (rad/s²). Swings before them have shown theirs already, but for what the ground
@@ -101,6 +113,7 @@ mod tests {
         assert!((tail.duration - 2.0 * 0.5 / (3.0 * 0.2)).abs() < 1e-15);
         let incoming = core::iter::successors(Some(0.5_f64), |speed| Some(speed * 0.8));
         assert_eq!(tail.impacts, incoming.take_while(|speed| *speed >= 0.1).count() as u32);
+        assert_eq!((tail.closings, tail.without_closings().closings), (tail.impacts, 0));
         assert!(Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 1.0, 0.5, 0.1).duration > 1e29);
     }
 
@@ -124,8 +137,8 @@ mod tests {
     #[test]
     fn a_swing_that_friction_holds_at_its_top_is_the_last() {
         let held = Accumulation::of((2.0_f64, 0.0), (5.0, 4.0), 0.7, 0.1, 1e-3);
-        assert_eq!((held.acceleration, held.impacts, held.duration), (2.0, 0, 0.05));
+        assert_eq!((held.acceleration, held.impacts, held.closings, held.duration), (2.0, 0, 0, 0.05));
         let later = Accumulation::of((2.0_f64, 1.5), (5.0, 0.0), 0.7, 0.1, 1e-3);
-        assert_eq!((later.acceleration, later.impacts), (5.0, 1));
+        assert_eq!((later.acceleration, later.impacts, later.closings), (5.0, 1, 1));
     }
 }

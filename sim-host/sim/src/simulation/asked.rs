@@ -3,11 +3,13 @@
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
 use super::coil_use::CoilUse;
+use super::counted_swing::CountedSwing;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
@@ -27,7 +29,8 @@ impl<S: Real> Asked<S> {
             EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.device().account(loaded)), task.interval)
         };
         let coils = task.scene.file.checks.as_ref().is_some_and(|checks| checks.coil.is_some()) && task.device().takes_commands();
-        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(|| CoilUse::of(task.carried())) })
+        let use_of_coils = || CoilUse::of(task.carried(), CountedSwing::of(loaded));
+        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(use_of_coils) })
     }
 
     /// What a controller has commanded, in the place of what the clutches did.
@@ -82,6 +85,12 @@ impl<S: Real> Observer<S> for Asked<S> {
         }
         if let Some(coils) = &mut self.coils {
             coils.event(event, time, state);
+        }
+    }
+
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        if let Some(coils) = &mut self.coils {
+            coils.accumulation(tail);
         }
     }
 }

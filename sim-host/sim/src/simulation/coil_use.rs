@@ -3,8 +3,11 @@
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 
+use super::counted_swing::CountedSwing;
+use crate::history::clutches;
 use crate::scene::checks::CoilTable;
 
 /// How long both clutches of a pair were engaged, and how often they closed.
@@ -12,24 +15,28 @@ use crate::scene::checks::CoilTable;
 pub struct CoilUse {
     /// Time engaged, of both clutches together, s.
     pub engaged_s: f64,
-    /// Closings of both.
+    /// Closings of both, in swings that count.
     pub closings: u32,
     carried: bool,
-    engaged: [bool; 2],
+    swing: CountedSwing,
+    /// Those that count as engaged, a bit each.
+    engaged: u8,
 }
 
 impl CoilUse {
-    /// Of a device that works while its block stands too, `carried` by a support that moves otherwise than the ground.
-    pub fn of(carried: bool) -> CoilUse {
-        CoilUse { carried, ..CoilUse::default() }
+    /// Of a device that works while its block stands too where it is `carried` by a support that moves otherwise than the ground; closings count
+    /// as long as `swing` does.
+    pub fn of(carried: bool, swing: CountedSwing) -> CoilUse {
+        CoilUse { carried, swing, ..CoilUse::default() }
     }
 
     /// The clutches were `engaged` for `duration` (s).
     pub fn hold(&mut self, engaged: [bool; 2], duration: f64) {
-        for (before, now) in self.engaged.iter_mut().zip(engaged) {
-            self.closings += u32::from(now && !*before);
+        let counted = self.swing.engaged(self.engaged, clutches(engaged));
+        self.closings += (counted & !self.engaged).count_ones();
+        self.engaged = counted;
+        for now in engaged {
             self.engaged_s += if now { duration } else { 0.0 };
-            *before = now;
         }
     }
 
@@ -43,6 +50,7 @@ impl CoilUse {
 impl<S: Real> Observer<S> for CoilUse {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.swing.moves(interval);
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.hold(engaged, (interval.to - interval.from).to_f64());
     }
@@ -51,7 +59,12 @@ impl<S: Real> Observer<S> for CoilUse {
         self.device_interval(output, interval);
     }
 
-    fn event(&mut self, event: Event, _time: S, _state: &BlockState<S>) {
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.closings += tail.closings;
+    }
+
+    fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
+        self.swing.begins(event, state);
         if event == Event::Rest && !self.carried {
             self.hold([false; 2], 0.0);
         }

@@ -123,6 +123,26 @@ fn coils_take_power_while_they_hold_and_energy_to_close() {
     }
 }
 
+/// Bounces are infinitely many, and the threshold decides how many of them are followed.
+#[test]
+fn the_rest_threshold_does_not_show_in_what_clutches_do() {
+    let braked = "flywheel = { brake_deceleration_m_s2 = 'instant' }";
+    let built = ["engagement = 'rigid'", "clutch = { capacity_ratio = 0.1 }"].map(|clutch| format!(", {clutch}, {braked}"));
+    for more in [""].into_iter().chain(built.iter().map(String::as_str)) {
+        let found = ["1e-12", "1e-9", "1e-6", "1e-3"].map(|speed| {
+            let run = runs_of(&format!(
+                "block = {{ size_m = 2.0, slenderness_deg = 10.0, restitution = 0.85 }}
+                device = [{{ kind = 'clutched-pair', mass_ratio = 0.5{more} }}]
+                ground = [{{ motion = 'sine', amplitude_ratio = 3.0, frequency_ratio = 6.0 }}]
+                run = {{ rest_speed_ratio = {speed} }}
+                checks = {{ coil = {{ holding_power_w = 24, closing_energy_j = 5 }} }}"
+            ));
+            (run[0].checks.as_ref().unwrap().coils.unwrap().closings, run[0].clutch_switches)
+        });
+        assert!(found[0].0 > 20 && found.iter().all(|counts| *counts == found[0]), "{more}: {found:?}");
+    }
+}
+
 /// (1 − η)/(1 + η) (1 + σ)/tan α with what is locked through the impact, without a table of checks.
 #[test]
 fn every_run_says_what_friction_an_impact_needs() {

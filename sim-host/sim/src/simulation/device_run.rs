@@ -34,7 +34,7 @@ pub struct DeviceRun {
     pub first_impact_time_s: Option<f64>,
     /// Rest, overturning or the end of the run.
     pub end_time_s: f64,
-    /// Times that other flywheels are engaged than before: changes of `engaged` in the history.
+    /// Times that other flywheels are engaged than before: changes of `engaged` in the history, in swings that count.
     pub clutch_switches: u32,
     /// Engagements that the clutch missed.
     #[serde(skip_serializing_if = "is_zero")]

@@ -6,6 +6,7 @@ mod asked;
 pub mod coil_use;
 #[cfg(feature = "effects")]
 mod compliant;
+pub mod counted_swing;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
 #[cfg(all(test, feature = "effects"))]

@@ -5,9 +5,11 @@ use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::structure::block::GRAVITY;
 
+use super::counted_swing::CountedSwing;
 use super::drive::Segmented;
 use crate::ground_motion::Segment;
 use crate::history::{Sample, clutches};
@@ -19,7 +21,7 @@ pub struct Recorder<'a> {
     pub samples: Vec<Sample>,
     /// Times of impacts, s.
     pub impacts: Vec<f64>,
-    /// Changes of [`Sample::engaged`].
+    /// Changes of [`Sample::engaged`] in swings that count.
     pub switches: u32,
     /// When the base first slid, s.
     pub first_slip: Option<f64>,
@@ -29,6 +31,9 @@ pub struct Recorder<'a> {
     force_scale: f64,
     stays_engaged: bool,
     carried: bool,
+    swing: CountedSwing,
+    /// As [`Sample::engaged`], of what counts.
+    engaged: u8,
     interval: f64,
     next: u64,
     origin: f64,
@@ -51,6 +56,8 @@ impl<'a> Recorder<'a> {
             force_scale,
             stays_engaged,
             carried: false,
+            swing: CountedSwing::default(),
+            engaged: 0,
             interval,
             next: 0,
             origin: 0.0,
@@ -68,6 +75,11 @@ impl<'a> Recorder<'a> {
     /// Of a device on a support that moves otherwise than the ground, which works while the block stands.
     pub fn carried(self, carried: bool) -> Self {
         Recorder { carried, ..self }
+    }
+
+    /// Of a block whose swings count as `swing` says; all do otherwise.
+    pub fn counting(self, swing: CountedSwing) -> Self {
+        Recorder { swing, ..self }
     }
 
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
@@ -121,8 +133,10 @@ impl<'a> Recorder<'a> {
     fn push(&mut self, mut sample: Sample) {
         // Where two pieces of ground motion meet, their own times may differ in the last bit.
         sample.time_s = self.samples.last().map_or(sample.time_s, |last| sample.time_s.max(last.time_s));
+        let engaged = self.swing.engaged(self.engaged, sample.engaged);
         let last = self.samples.last();
-        self.switches += u32::from(last.is_some_and(|last| last.engaged != sample.engaged));
+        self.switches += u32::from(last.is_some() && engaged != self.engaged);
+        self.engaged = engaged;
         if last != Some(&sample) {
             self.samples.push(sample);
         }
@@ -151,6 +165,7 @@ impl<'a> Recorder<'a> {
 
 impl<S: Real> Observer<S> for Recorder<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.swing.moves(interval);
         let start = self.origin + interval.start.to_f64();
         // Summed as the core sums them, so that an arc ends on the very instant at which the next one starts.
         let at = |time: S| self.origin + (interval.start + time).to_f64();
@@ -180,13 +195,16 @@ impl<S: Real> Observer<S> for Recorder<'_> {
         }
     }
 
-    fn event(&mut self, event: Event, time: S, _state: &BlockState<S>) {
+    fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.switches += 2 * tail.closings;
+    }
+
+    fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         let at = self.origin + time.to_f64();
+        self.flush();
+        self.swing.begins(event, state);
         match event {
-            Event::Uplift | Event::Rest if self.carried => {
-                self.flush();
-                self.broken = true;
-            }
+            Event::Uplift | Event::Rest if self.carried => self.broken = true,
             Event::Uplift => {
                 self.stand_until(at);
                 let sample = self.standing(at);
@@ -194,7 +212,6 @@ impl<S: Real> Observer<S> for Recorder<'_> {
                 self.broken = true;
             }
             Event::Rest => {
-                self.flush();
                 let sample = self.standing(at);
                 self.push(sample);
                 while self.grid() <= at {
@@ -202,20 +219,16 @@ impl<S: Real> Observer<S> for Recorder<'_> {
                 }
             }
             Event::Impact => {
-                self.flush();
                 self.impacts.push(at);
                 self.broken = true;
             }
-            Event::Switch | Event::Coupling => {
-                self.flush();
-                self.broken = true;
-            }
+            Event::Switch | Event::Coupling => self.broken = true,
             Event::Slip => {
                 self.first_slip = self.first_slip.or(Some(at));
                 self.stand_until(at);
                 self.broken = true;
             }
-            Event::Turn | Event::Overturned => self.flush(),
+            Event::Turn | Event::Overturned => {}
         }
     }
 }

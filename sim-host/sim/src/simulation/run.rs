@@ -13,6 +13,7 @@ use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::{Base, Structure};
 
 use super::asked::Asked;
+use super::counted_swing::CountedSwing;
 use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
@@ -293,7 +294,9 @@ impl<'a> Task<'a> {
         let all = self.scene.file.checks.is_some();
         let checks = if all || self.reports { Some(self.checks(loaded)?) } else { None };
         Ok(Watchers {
-            recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments).carried(self.carried()),
+            recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments)
+                .carried(self.carried())
+                .counting(CountedSwing::of(loaded)),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
             checks: checks.map(|checks| match &self.scene.file.checks {
                 Some(table) if self.reports || table.gear.is_some() || table.friction_coefficient.is_some() => checks,

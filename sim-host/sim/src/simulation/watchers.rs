@@ -58,7 +58,9 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
     }
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
+        self.recorder.accumulation(tail);
         self.peaks.accumulation(tail);
+        self.asked.accumulation(tail);
     }
 
     fn device_bounce(&mut self, side: Sign, time: S, snapshot: &dyn Fn() -> Snapshot<S>) {

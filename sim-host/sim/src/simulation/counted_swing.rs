@@ -1,0 +1,43 @@
+//! Swings whose clutch switches count: as with impacts, those of a dying motion are infinitely many, and the rest threshold decides how many of
+//! them are followed.
+
+use sprag_shared::math::scalar::Real;
+use sprag_shared::motion::observer::{Event, MonotoneInterval};
+use sprag_shared::motion::state::BlockState;
+use sprag_shared::structure::{COUNTED_SPEED, Structure};
+
+/// Whether the present swing counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CountedSwing {
+    /// θ̇ with which an impact counts, rad/s.
+    speed: f64,
+    weak: bool,
+}
+
+impl CountedSwing {
+    /// Of the block with what it carries.
+    pub fn of(loaded: &Structure) -> CountedSwing {
+        let block = &loaded.block;
+        CountedSwing { speed: COUNTED_SPEED * block.frequency_parameter() * block.slenderness(), weak: false }
+    }
+
+    /// The block moves.
+    pub fn moves<S: Real>(&mut self, interval: &MonotoneInterval<S>) {
+        self.weak &= interval.first.velocity.abs().larger(interval.last.velocity.abs()).to_f64() <= self.speed;
+    }
+
+    /// A swing that an impact leaves too slow does not count unless it gets faster.
+    pub fn begins<S: Real>(&mut self, event: Event, state: &BlockState<S>) {
+        match event {
+            Event::Impact => self.weak = state.velocity.to_f64().abs() <= self.speed,
+            Event::Uplift | Event::Rest => self.weak = false,
+            Event::Turn | Event::Switch | Event::Coupling | Event::Slip | Event::Overturned => {}
+        }
+    }
+
+    /// The flywheels (a bit each) that count as engaged from now on, where `before` did until now and `engaged` are: a swing that does not count
+    /// only lets go.
+    pub fn engaged(&self, before: u8, engaged: u8) -> u8 {
+        if self.weak { before & engaged } else { engaged }
+    }
+}
