@@ -83,5 +83,6 @@ pub const IMPACT: Effect = Effect {
     ],
     source: "Eq. 3 of the paper; Housner 1963; moment of momentum about the new toe with the inerter's impulse, derived here",
     keys: &["block.restitution"],
-    is_on: |scene, index| !settings(scene, index, IMPACT.keys).is_empty(),
+    // On a base that gives nothing hits.
+    is_on: |scene, index| scene.file.block.foundation.is_none() && !settings(scene, index, IMPACT.keys).is_empty(),
 };

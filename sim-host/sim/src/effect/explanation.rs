@@ -6,7 +6,7 @@ use sprag_shared::structure::drivetrain::Engagement;
 
 use super::motion::motion;
 use super::number::number;
-use super::{EFFECTS, Effect, rules};
+use super::{EFFECTS, Effect, block, rules, settings};
 use crate::scene::schema::{EventTreatment, MethodName, Precision};
 use crate::scene::sliding::step;
 use crate::scene::{Scene, SceneDevice};
@@ -120,9 +120,10 @@ impl Explanation {
         let table = &scene.file.device[index];
         let standing = table.weight.as_ref().map(|weight| weight.standing()).unwrap_or_default();
         let still = standing.iter().map(|name| format!("device.{index}.{name}: it stands still on the support"));
-        let still: Vec<String> = still.collect();
-        if !still.is_empty() {
-            sections.push(Section { title: "given, but without effect on the motion", lines: still });
+        let hits = scene.file.block.foundation.is_some() && !settings(scene, index, block::IMPACT.keys).is_empty();
+        let idle: Vec<String> = still.chain(hits.then(|| "block.restitution: on a foundation nothing hits".to_owned())).collect();
+        if !idle.is_empty() {
+            sections.push(Section { title: "given, but without effect on the motion", lines: idle });
         }
         let kind = table.kind.name();
         let effects = Effects::of_device(scene, index);

@@ -69,6 +69,16 @@ fn on_feet_the_equation_is_that_of_feet() {
     assert!(text.contains("ÿ = φ₁ + φ₂") && text.contains("no impact") && !text.contains("λ θ̈ ="), "{text}");
 }
 
+#[test]
+fn on_feet_a_restitution_that_is_given_has_no_effect() {
+    let scene = |overrides: &[&str]| Scene::parse_with(BASES[1], "scene", overrides).unwrap();
+    let says = "block.restitution: on a foundation nothing hits\n";
+    let given = scene(&["block.restitution=0.8"]);
+    assert!(Effects::of_scene(&given).on.iter().all(|setting| setting.effect.name != "impact"));
+    assert!(text_of(&Explanation::of(&given, 0)).contains(says));
+    assert!(!text_of(&Explanation::of(&scene(&["block.restitution=0.85"]), 0)).contains(says));
+}
+
 fn text_of(explanation: &Explanation) -> String {
     explanation.sections.iter().flat_map(|section| &section.lines).map(|line| format!("{line}\n")).collect()
 }
