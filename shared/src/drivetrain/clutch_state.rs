@@ -103,7 +103,7 @@ pub struct Terminals<S> {
 pub struct DeviceState<S> {
     /// The one for positive motion, and the one for negative.
     pub wheels: [FlywheelState<S>; 2],
-    /// Commands to engage so far.
+    /// Commands to engage so far, in swings that count.
     pub engagements: u32,
     /// Engagements missed so far.
     pub missed: u32,

@@ -74,7 +74,7 @@ pub fn give(device: &Device, state: &mut State, wheel: usize, engage: bool) {
         return;
     }
     let mut obeys = true;
-    if engage {
+    if engage && !state.weak {
         state.engagements += 1;
         obeys = !misses(device, state.engagements);
     }

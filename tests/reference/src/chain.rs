@@ -26,6 +26,8 @@ impl Model {
     /// Commands by Eq. 10 for the present direction of block or terminals, and all that is due. Returns whether a clutch moved.
     pub fn command(&self, state: &mut State) -> bool {
         let followed = if self.follows_terminals() { Some(state.terminals) } else { state.direction() };
+        let speed = state.velocity().abs().max(state.rotation().abs() * self.block.frequency_parameter());
+        state.weak &= speed <= self.counted;
         if let Some(direction) = followed {
             let resists = state.drive == direction;
             for i in 0..2 {

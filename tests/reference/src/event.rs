@@ -79,6 +79,7 @@ impl Model {
             restitution = self.scatter.drawn(state.impacts, restitution);
         }
         state.values[VELOCITY] *= restitution;
+        state.weak = state.velocity().abs() <= self.counted;
         state.block = BlockMode::Rocking { side: direction, direction };
         if self.device.only_locks() {
             self.follow_rack(state);
@@ -101,6 +102,7 @@ impl Model {
             let mut rest = state.clone();
             let before = energy(self, &rest);
             rest.values[VELOCITY] = 0.0;
+            rest.weak = false;
             self.follow_rack(&mut rest);
             rest.values[IMPACT] += before - energy(self, &rest);
             self.take_terminals(&mut rest);

@@ -71,8 +71,10 @@ pub struct State {
     pub terminals: f64,
     /// The acceleration has come to agree with that sign, so that its zero is a change.
     pub armed: bool,
-    /// Engagements commanded so far.
+    /// Engagements so far that have a number.
     pub engagements: u32,
+    /// The last impact left the block so slow that engagements of its swing have none.
+    pub weak: bool,
     /// Impacts so far that have a number.
     pub impacts: u32,
     /// Sign of the force of what is locked over that of the motion, as last found: friction of the mesh adds to it or takes from it.

@@ -63,6 +63,7 @@ impl<'a> Runner<'a> {
             terminals: direction,
             armed: true,
             engagements: 0,
+            weak: false,
             impacts: 0,
             load: 1.0,
             slipped: None,

@@ -9,7 +9,7 @@ use crate::math::scalar::Real;
 use crate::math::sign::Sign;
 use crate::math::split_mix;
 use crate::motion::observer::Observer;
-use crate::motion::state::Phase;
+use crate::motion::state::{BlockState, Phase};
 use crate::structure::drivetrain::{Actuation, Delay};
 
 /// Actuator between a command and its clutch: delays, dwell, misses.
@@ -81,6 +81,7 @@ impl<S: Real> HybridSystem<S> {
         if !self.transmission.traits().commanded || state.motion.phase != Phase::Rocking {
             return;
         }
+        state.weak = state.weak && self.is_slow(&state.motion);
         for answer in 0..MOST_ANSWERS {
             if answer > 0 {
                 self.show_instant(state, time, observer);
@@ -121,6 +122,11 @@ impl<S: Real> HybridSystem<S> {
             }
             self.settle(state, time, observer);
         }
+    }
+
+    /// Whether a swing that set out too slowly to count still does: nowhere near the speed and the rotation that matter.
+    fn is_slow(&self, motion: &BlockState<S>) -> bool {
+        motion.velocity.abs().larger(motion.rotation.abs() * self.speed / self.slenderness) <= self.counted_speed
     }
 
     /// A controller's command to each clutch, at local time 0 of the ground segment that follows. It takes effect after the
@@ -180,8 +186,10 @@ impl<S: Real> HybridSystem<S> {
         wheel.commanded = engage;
         let open = !wheel.coupling.is_engaged();
         let delay = if engage {
-            device.engagements += 1;
-            wheel.obeys = !self.actuator.misses(device.engagements);
+            // Of the bounces of a dying motion the rest threshold decides how many there are: they have no number, and miss nothing.
+            let counts = self.actuator.controlled || !state.weak;
+            device.engagements += u32::from(counts);
+            wheel.obeys = !(counts && self.actuator.misses(device.engagements));
             device.missed += u32::from(!wheel.obeys);
             self.actuator.engagement_delay
         } else {

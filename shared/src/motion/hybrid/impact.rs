@@ -58,6 +58,7 @@ impl<S: Real> HybridSystem<S> {
         motion.side = motion.direction;
         self.look_at_drive(state);
         let velocity = state.motion.velocity;
+        state.weak = velocity.abs() <= self.counted_speed;
         observer.event(Event::Impact, time, &state.motion);
         self.with_instant(state, time, observer, |transmission, at| {
             transmission.impact(at, before);
@@ -86,6 +87,7 @@ impl<S: Real> HybridSystem<S> {
         }
         *state = standing;
         state.motion.impacts += tail.impacts;
+        state.device.engagements += tail.closings;
         observer.event(Event::Rest, ends, &state.motion);
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);

@@ -87,6 +87,8 @@ pub struct HybridState<S> {
     free: bool,
     /// The sign of Eq. 10 is one that a jolt left; the acceleration does not agree with it yet.
     jolted: bool,
+    /// The last impact left the block too slow for its swing to count.
+    weak: bool,
 }
 
 /// Progress through a ground segment.

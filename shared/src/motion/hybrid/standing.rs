@@ -17,7 +17,7 @@ impl<S: Real> HybridSystem<S> {
     /// Block and device of `state` once the block stands.
     #[inline(never)]
     pub(super) fn standing(&self, state: &HybridState<S>, time: S, observer: &mut dyn Observer<S>) -> HybridState<S> {
-        let mut standing = HybridState { motion: state.motion.rested(state.motion.impacts), held: false, ..*state };
+        let mut standing = HybridState { motion: state.motion.rested(state.motion.impacts), held: false, weak: false, ..*state };
         self.part_at_rest(&mut standing, time, observer);
         for wheel in &mut standing.device.wheels {
             // Plates that slip as slowly as impacts that accumulate stick with them. Any other flywheel that a resting block has left with
@@ -223,7 +223,7 @@ impl<S: Real> HybridSystem<S> {
         (held.motion.rotation, held.motion.velocity) = (S::ZERO, S::ZERO);
         let (side, threshold) = self.lifted(&held, state.ground);
         if self.transmission.traits().holds && !threshold.is_exceeded(state.ground) {
-            (held.motion.side, held.motion.direction, held.held) = (side, side, true);
+            (held.motion.side, held.motion.direction, held.held, held.weak) = (side, side, true, false);
             held.motion.phase = Phase::Rocking;
             let stood = state.motion.phase == Phase::Rest;
             *state = held;

@@ -143,6 +143,30 @@ fn the_rest_threshold_does_not_show_in_what_clutches_do() {
     }
 }
 
+/// Which engagements a second pulse finds missed does not hang on how many bounces of the first one are followed.
+#[test]
+fn the_rest_threshold_does_not_show_in_what_clutches_miss() {
+    for seed in 1..4 {
+        let [exact, others @ ..] = ["1e-12", "1e-9", "1e-6"].map(|speed| {
+            let pulse = "motion = 'sine', amplitude_ratio = 3.0, frequency_ratio = 6.0";
+            let text = format!(
+                "block = {{ size_m = 2.0, slenderness_deg = 10.0, restitution = 0.85 }}
+                device = [{{ kind = 'clutched-pair', mass_ratio = 0.5, actuation = {{ miss_probability = 0.3, miss_seed = {seed} }} }}]
+                ground = [{{ {pulse} }}, {{ {pulse}, start_s = 12.0 }}]
+                run = {{ rest_speed_ratio = {speed} }}"
+            );
+            runs_of(&text).remove(0)
+        });
+        assert!(exact.missed_engagements > 5, "{}", exact.missed_engagements);
+        for run in others {
+            let counts = |run: &DeviceRun| (run.impacts, run.clutch_switches, run.missed_engagements);
+            assert_eq!(counts(&run), counts(&exact), "{seed}");
+            let [peak, other] = [&run, &exact].map(|run| run.peak_rotation.unwrap());
+            assert!((peak / other - 1.0).abs() < 1e-9, "{seed}: {peak} {other}");
+        }
+    }
+}
+
 /// (1 − η)/(1 + η) (1 + σ)/tan α with what is locked through the impact, without a table of checks.
 #[test]
 fn every_run_says_what_friction_an_impact_needs() {
