@@ -32,7 +32,8 @@ use super::thread_arguments::ThreadArguments;
 #[derive(Args, Clone, Debug)]
 #[command(after_help = format!("Examples:\n  sprag batch cases.csv --out results.csv\n  \
     sprag batch cases.parquet --out results.parquet\n  generate | sprag batch - --out - | evaluate\n\nA case file has the columns\n  {CASE_COLUMNS}\n\
-    and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start; with --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
+    and the result file\n  {RESULT_COLUMNS}\nwith times in 1/p from the pulse's start. end_time is the instant of rest, or from which nothing can stop a fall; that of the pulse's end for a block that does not \
+    rock, else that of the free time's. With --accuracy or --time-budget also\n  {ERROR_COLUMNS}\n\
     A case of device none does not depend on its mass_ratio. Rows keep their order, whatever the number of threads. They are read and written in a stream, in constant memory."))]
 pub struct BatchArguments {
     /// Case file, CSV or Parquet by its ending, or - for standard input: a block and a pulse in each row.
