@@ -92,7 +92,7 @@ impl<S: Real, P: GroundSegment<S>> DeviceOutput<S> for WatchedArc<'_, S, P> {
 }
 
 /// Snapshot of a block that moves on a side s = `side` with the flywheel `wheel` working, if any; `ground` is ü_g/g.
-#[inline(always)]
+#[inline]
 fn seen<S: Real>(
     (equation, coupling, wheel): (&AnyEquation<S>, S, Option<usize>),
     side: S,
