@@ -2,6 +2,8 @@
 
 use console::{Term, measure_text_width};
 
+use crate::lines::in_lines;
+
 /// What a line that goes on below is indented by, beyond its beginning.
 const INDENT: &str = "  ";
 
@@ -19,17 +21,11 @@ fn broken(text: &str, width: usize) -> Vec<String> {
 
 /// `pieces`, each with the spaces after it, in lines of at most `width` without the spaces that end them; a single piece may still be too wide.
 pub(crate) fn in_lines_of<'a>(width: usize, pieces: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for piece in pieces {
+    let fits = |line: &str, piece: &str| {
         let shown = piece.trim_end_matches(' ');
-        match lines.last_mut() {
-            Some(line) if shown.is_empty() || measure_text_width(line) + measure_text_width(shown) <= width => {
-                line.push_str(piece)
-            }
-            _ => lines.push(piece.to_owned()),
-        }
-    }
-    lines.into_iter().map(|line| line.trim_end_matches(' ').to_owned()).collect()
+        shown.is_empty() || measure_text_width(line) + measure_text_width(shown) <= width
+    };
+    in_lines(pieces, "", fits).iter().map(|line| line.trim_end_matches(' ').to_owned()).collect()
 }
 
 /// `text` as wide as standard output where that is a terminal: lines that are wider go on below, indented.
