@@ -3,13 +3,13 @@
 use numpy::{Element, IntoPyArray as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use sprag_shared::observers::counted_swing::clutches;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::accuracy::Closeness;
 use sprag_sim::closed_loop::report::LoopReport;
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::digest::of_decisions;
-use sprag_sim::history::clutches;
 use sprag_sim::interrupt::Interrupt;
 
 use crate::errors::{Raise as _, range, refused};

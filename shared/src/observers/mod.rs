@@ -1,8 +1,10 @@
-//! Observers of a motion: peaks, energy ledger, checks of forces and friction, digests of every bit.
+//! Observers of a motion: peaks, energy ledger, checks of forces and friction, use of coils, digests of every bit.
 //!
 //! The room imports `math`, `structure`, `method` and `motion`.
 
 pub mod checks;
+pub mod coil_use;
+pub mod counted_swing;
 pub mod digest;
 pub mod ledger;
 pub mod outcome;

@@ -118,7 +118,7 @@ fn under_pulses(geometry: Geometry, case: Case) {
 }
 
 fn block_on<'a>(system: &'a HybridSystem<f64>, ground: Ground<'a>) -> HybridBlock<'a> {
-    HybridBlock { system, overturned_at_slenderness: false, ground, checks: None }
+    HybridBlock { system, overturned_at_slenderness: false, ground, checks: None, coils: None }
 }
 
 /// Prints a line: `blocks` in lanes, so many at a time, and one of so many by the core, which is given its structure and motions.

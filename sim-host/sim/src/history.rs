@@ -33,11 +33,6 @@ impl Sample {
     }
 }
 
-/// Which clutches are engaged, as a number: 0 none, 1 the first, 2 the second, 3 both.
-pub fn clutches(engaged: [bool; 2]) -> u8 {
-    u8::from(engaged[0]) + 2 * u8::from(engaged[1])
-}
-
 /// The response of a block with one device to one ground motion.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {

@@ -8,6 +8,8 @@ use sprag_ensemble::shaken::{Samples, Shaken, ShakenBlock};
 use sprag_shared::ground::{GroundSegment, Harmonics};
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::counted_swing::CountedSwing;
 
 use crate::ground_motion::{GroundMotion, Segment};
 use crate::record::Record;
@@ -15,6 +17,7 @@ use crate::scene::Scene;
 use crate::scene::checks::ChecksTable;
 use crate::scene::ground::GroundError;
 use crate::scene::motions::GroundMotions;
+use crate::simulation::demand::tooth_stresses;
 
 /// A scene of one device, and which lanes know it.
 #[derive(Clone, Debug)]
@@ -25,8 +28,8 @@ pub struct Subject {
     ideal: Option<PlainBlock>,
     /// That with any other one, or one whose force is asked for.
     real: Option<Box<HybridSystem<f64>>>,
-    /// Who looks at what the device asks for.
-    checks: Option<Checks<f64>>,
+    /// Who looks at the forces of the device, and at its coils, where these are asked for.
+    watch: Option<(Checks<f64>, Option<CoilUse>)>,
 }
 
 /// What became of a subject.
@@ -45,6 +48,10 @@ pub struct DeviceDemand {
     pub force_ratio: f64,
     /// Farthest travel of the terminals to one side, m.
     pub stroke_m: f64,
+    /// Largest bending stress at the root of a tooth, MPa; none where the scene has no gear.
+    pub tooth_stress_mpa: Option<f64>,
+    /// Energy of the coils of both clutches, J; none where the scene has no coil, or the device no clutch that one holds.
+    pub coil_energy_j: Option<f64>,
 }
 
 /// How the ground moves under a subject.
@@ -93,14 +100,31 @@ impl Subject {
     pub fn new(scene: Scene) -> Subject {
         let ideal = scene.plain_block(0);
         let real = if ideal.is_none() { scene.hybrid_system(0) } else { None };
-        Subject { ideal, real: real.map(Box::new), scene, checks: None }
+        Subject { ideal, real: real.map(Box::new), scene, watch: None }
     }
 
-    /// `scene`, of one device whose force and stroke are asked for too.
+    /// `scene`, of one device whose force and stroke are asked for too, and the teeth and coils that its `[checks]` have.
     pub fn watched(scene: Scene) -> Subject {
-        let checks = checks(&scene);
-        let real = scene.hybrid_system(0).filter(|_| checks.is_some());
-        Subject { ideal: None, real: real.map(Box::new), scene, checks }
+        let watch = watch(&scene);
+        let real = scene.hybrid_system(0).filter(|_| watch.is_some());
+        Subject { ideal: None, real: real.map(Box::new), scene, watch }
+    }
+
+    /// What was asked of its device by `moved`.
+    fn demand(&self, moved: &HybridMotion) -> Option<DeviceDemand> {
+        let (force, stroke_m) = moved.support_force_ratio().zip(moved.stroke())?;
+        let heavier = 1.0 + self.scene.devices[0].added_mass.mass_ratio;
+        let ChecksTable { gear, coil, .. } = self.scene.file.checks.clone().unwrap_or_default();
+        let stress = |gear| {
+            let force = moved.flywheel_force_ratio()? * heavier;
+            Some(tooth_stresses(&gear, &self.scene, 0, force).into_iter().fold(0.0, f64::max))
+        };
+        Some(DeviceDemand {
+            force_ratio: force * heavier,
+            stroke_m,
+            tooth_stress_mpa: gear.and_then(stress),
+            coil_energy_j: coil.zip(moved.coils).map(|(coil, used)| coil.energy_j(&used)),
+        })
     }
 
     /// Whether lanes know it where the ground moves by a record alone (`only_record`), or in any way.
@@ -136,13 +160,18 @@ impl<'a> InPieces<'a> {
     }
 }
 
-/// Who looks at force and stroke of the device of `scene`; nobody where its `[checks]` ask for more.
-fn checks(scene: &Scene) -> Option<Checks<f64>> {
-    let asks_for_more = scene.file.checks.as_ref().is_some_and(|checks| *checks != ChecksTable::default());
-    let device = scene.devices.first().filter(|_| !asks_for_more)?;
+/// Who looks at what the device of `scene` asks for; nobody where a program without effects is to refuse its `[checks]`.
+fn watch(scene: &Scene) -> Option<(Checks<f64>, Option<CoilUse>)> {
+    let device = scene.devices.first()?;
     let loaded = scene.structure(0).loaded().ok()?;
-    let checks = Checks::new(&loaded.block, scene.geometry(), &loaded.device.mount, &device.account(&loaded));
-    checks.ok().map(Checks::brief)
+    let all = Checks::new(&loaded.block, scene.geometry(), &loaded.device.mount, &device.account(&loaded)).ok()?;
+    let table = scene.file.checks.as_ref();
+    if cfg!(not(feature = "effects")) && table.is_some() {
+        return None;
+    }
+    let checks = if table.is_some_and(|table| table.gear.is_some()) { all.of_flywheels() } else { all.brief() };
+    let coils = table.is_some_and(|table| table.coil.is_some()) && device.takes_commands();
+    Some((checks, coils.then(|| CoilUse::of(false, CountedSwing::of(&loaded)))))
 }
 
 /// What becomes of each subject on its ground and in the free time of its scene, in their order; `None` for those that the core is to follow.
@@ -172,7 +201,8 @@ pub fn followed<'a>(runs: &[(&Subject, Shaking<'a>)]) -> Vec<Option<Followed>> {
         };
         if let Some((system, ground)) = subject.real.as_deref().zip(ground) {
             let overturned_at_slenderness = subject.scene.overturned_at_slenderness();
-            real.push((index, HybridBlock { system, overturned_at_slenderness, ground, checks: subject.checks.as_ref() }));
+            let (checks, coils) = subject.watch.as_ref().map_or((None, None), |(checks, coils)| (Some(checks), *coils));
+            real.push((index, HybridBlock { system, overturned_at_slenderness, ground, checks, coils }));
         }
     }
     let mut found = vec![None; runs.len()];
@@ -185,19 +215,14 @@ pub fn followed<'a>(runs: &[(&Subject, Shaking<'a>)]) -> Vec<Option<Followed>> {
     }
     let blocks: Vec<HybridBlock<'_>> = real.iter().map(|(_, block)| *block).collect();
     for ((index, block), moved) in real.iter().zip(shake_hybrid(&blocks, Registers::Widest)) {
-        let scene = &runs[*index].0.scene;
-        let heavier = 1.0 + scene.devices[0].added_mass.mass_ratio;
-        let demand = |moved: &HybridMotion| {
-            let (force, stroke_m) = moved.support_force_ratio().zip(moved.stroke())?;
-            Some(DeviceDemand { force_ratio: force * heavier, stroke_m })
-        };
+        let subject = runs[*index].0;
         let free_time = match block.ground {
-            Ground::Record(_) => scene.free_time_s(),
+            Ground::Record(_) => subject.scene.free_time_s(),
             // The last of them.
             Ground::Pieces(_) => 0.0,
         };
         let ended = moved.and_then(|moved| moved.after(block, free_time).ok());
-        found[*index] = ended.map(|moved| Followed { motion: Shaken::from(moved), demand: demand(&moved) });
+        found[*index] = ended.map(|moved| Followed { motion: Shaken::from(moved), demand: subject.demand(&moved) });
     }
     found
 }

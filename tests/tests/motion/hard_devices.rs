@@ -67,7 +67,8 @@ fn a_mode_that_lasts_no_time_has_no_peak() {
     ]);
     let (_, peaks) = follow(&Course::of(&structure, &level, FREE_TIME, Overturning::Reached), &system, TIGHT);
     let pieces = InPieces::new(&level, None, FREE_TIME);
-    let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground: pieces.ground(), checks: None };
+    let block =
+        HybridBlock { system: &system, overturned_at_slenderness: false, ground: pieces.ground(), checks: None, coils: None };
     let in_lanes = shake_hybrid(&[block], Registers::Widest)[0].unwrap().peaks;
     assert!((peaks.acceleration - in_lanes.acceleration).abs() < 1e-9, "{peaks:?} {in_lanes:?}");
     assert!((peaks.rotation - in_lanes.rotation).abs() < 1e-9, "{peaks:?} {in_lanes:?}");

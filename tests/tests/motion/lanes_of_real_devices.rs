@@ -17,6 +17,8 @@ use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::counted_swing::CountedSwing;
 use sprag_shared::observers::ledger::{Account, Clutching};
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::RestitutionScatter;
@@ -89,22 +91,30 @@ fn structures_with(geometry: Geometry, kind: DeviceKind, kinematics: KinematicsK
     kinds.into_iter().enumerate().map(structure).collect()
 }
 
-/// Peaks and checks, at once.
-struct Both(Peaks<f64>, Checks<f64>);
+/// Peaks, checks and the use of coils, at once.
+struct All(Peaks<f64>, Checks<f64>, CoilUse);
 
-impl Observer<f64> for Both {
+impl Observer<f64> for All {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.0.interval(output.motion(), interval);
         self.1.device_interval(output, interval);
+        self.2.device_interval(output, interval);
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.1.device_at_rest(output, interval);
+        self.2.device_at_rest(output, interval);
     }
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.0.event(event, time, state);
         self.1.event(event, time, state);
+        self.2.event(event, time, state);
     }
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.0.accumulation(tail);
+        self.2.accumulation(tail);
     }
 
     fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
@@ -112,18 +122,22 @@ impl Observer<f64> for Both {
     }
 }
 
-impl Segmented for Both {
+impl Segmented for All {
     fn segment(&mut self, start: f64, segment: Option<&Segment>) {
         self.0.segment(start, segment);
         self.1.origin = start;
     }
 }
 
-/// Checks of the force on the support, and with `all` of everything else.
+/// Checks of forces, and with `all` of everything else.
 fn checks(structure: &Structure, all: bool) -> Checks<f64> {
     let account = Account { clutching: Clutching::Rigid, mass_ratio: structure.device.mass_ratio, ..Account::default() };
     let checks = Checks::new(&structure.block, structure.geometry, &structure.device.mount, &account).unwrap();
-    if all { checks } else { checks.brief() }
+    if all { checks } else { checks.of_flywheels() }
+}
+
+fn coils(structure: &Structure) -> CoilUse {
+    CoilUse::of(false, CountedSwing::of(structure))
 }
 
 /// A motion of the ground, for lanes and for the core.
@@ -152,13 +166,13 @@ fn shaken(records: &[Samples], vertical: bool) -> Vec<Moving<'_>> {
 }
 
 /// By the core, alone.
-fn alone(structure: &Structure, system: &HybridSystem<f64>, moving: &Moving<'_>) -> (HybridState<f64>, Both) {
+fn alone(structure: &Structure, system: &HybridSystem<f64>, moving: &Moving<'_>) -> (HybridState<f64>, All) {
     let Moving { level, vertical, .. } = moving;
     let course = Course { vertical: vertical.as_ref(), ..Course::of(structure, level, FREE_TIME, Overturning::Reached) };
-    let (mut state, mut both) = (system.at_rest(), Both(Peaks::default(), checks(structure, true)));
+    let (mut state, mut all) = (system.at_rest(), All(Peaks::default(), checks(structure, true), coils(structure)));
     let method = hybrid(Method::Adaptive(TIGHT));
-    course.follow_machine(system, &*method, &mut state, &mut both, || true).unwrap();
-    (state, both)
+    course.follow_machine(system, &*method, &mut state, &mut all, || true).unwrap();
+    (state, all)
 }
 
 /// Steps and phases of what was compared.
@@ -182,7 +196,9 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Movin
     for structure in structures {
         let system = drivetrain.resolve::<f64>(&structure, vertical).unwrap();
         let checks = checks(&structure, false);
-        let block = |ground| HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: Some(&checks) };
+        let coils = Some(coils(&structure));
+        let block =
+            |ground| HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: Some(&checks), coils };
         let asked: Vec<HybridBlock<'_>> = motions.iter().map(|moving| block(moving.ground)).collect();
         for ((block, moving), found) in asked.iter().zip(motions).zip(shake_hybrid(&asked, Registers::Widest)) {
             let found = found.expect("lanes take it");
@@ -192,7 +208,7 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Movin
             for (sum, number) in seen.steps.iter_mut().zip([plain, located, by_core]) {
                 *sum += number;
             }
-            let (state, Both(peaks, checked)) = alone(&structure, &system, moving);
+            let (state, All(peaks, checked, used)) = alone(&structure, &system, moving);
             let case = format!("{structure:?} {drivetrain:?} {:?}: {found:?} {state:?} {peaks:?}", block.ground);
             seen.phases[state.motion.phase as usize] += 1;
             assert_eq!(
@@ -209,14 +225,22 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Movin
                 let apart = ours.zip(theirs).map_or(0.0, |(ours, theirs)| (ours - theirs).abs());
                 assert!(apart < 1e-7, "{apart} {case}");
             }
-            let largest = [checked.report.support, checked.report.stroke()].map(|found| found.map_or(0.0, |found| found.value));
-            for (ours, theirs) in [found.support_force_ratio(), found.stroke()].into_iter().zip(largest) {
+            let largest = [checked.report.support, checked.report.largest_force(), checked.report.stroke()]
+                .map(|found| found.map_or(0.0, |found| found.value));
+            let ours = [found.support_force_ratio(), found.flywheel_force_ratio(), found.stroke()];
+            for (ours, theirs) in ours.into_iter().zip(largest) {
                 assert!((ours.unwrap() - theirs).abs() <= 1e-9 * (1.0 + theirs), "{ours:?} {theirs} {case}");
             }
             if state.motion.phase != Phase::Overturned {
                 let (alpha, scale) = (system.slenderness, system.speed * system.speed / system.slenderness);
                 assert!((found.peaks.rotation - peaks.rotation).abs() <= 1e-9 * alpha, "{case}");
                 assert!((found.peaks.acceleration - peaks.acceleration).abs() <= 1e-9 * scale, "{case}");
+            }
+            // Nothing holds an inerter without clutches.
+            if structure.device.kind == DeviceKind::ClutchedPair {
+                let ours = found.coils.unwrap();
+                assert!((ours.engaged_s - used.engaged_s).abs() <= 1e-7, "{ours:?} {used:?} {case}");
+                assert!(ours.closings.abs_diff(used.closings) <= last, "{ours:?} {used:?} {case}");
             }
         }
     }
@@ -360,7 +384,7 @@ fn bits_depend_neither_on_registers_nor_on_neighbours() {
         .flat_map(structures)
         .flat_map(|structure| drivetrains().into_iter().map(move |drivetrain| drivetrain.resolve(&structure, false).unwrap()))
         .collect();
-    let block = |(system, ground)| HybridBlock { system, overturned_at_slenderness: false, ground, checks: None };
+    let block = |(system, ground)| HybridBlock { system, overturned_at_slenderness: false, ground, checks: None, coils: None };
     let asked: Vec<HybridBlock<'_>> =
         systems.iter().flat_map(|system| motions.iter().map(move |&ground| (system, ground))).map(block).collect();
     type Bits = (Phase, [u64; 6], u32, Steps);
@@ -385,7 +409,7 @@ fn what_is_not_plain_is_left_to_the_core() {
     let of = |drivetrain: &Drivetrain, samples: &Samples| {
         let system = drivetrain.resolve(structure, false).unwrap();
         let ground = Ground::Record(Sampled { samples, factor: 1.0, vertical: None });
-        let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: None };
+        let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground, checks: None, coils: None };
         shake_hybrid(&[block], Registers::Widest)[0].is_some()
     };
     assert!(of(&lossy, &samples) && !of(&guided, &samples));

@@ -151,7 +151,8 @@ fn lanes_and_the_core_agree_on_random_devices() {
         let course = Course { vertical, ..Course::of(&structure, &level, free_time, Overturning::Reached) };
         let (outcome, peaks) = by_core(&course, &system, TIGHT);
         let pieces = InPieces::new(&level, vertical, free_time);
-        let block = HybridBlock { system: &system, overturned_at_slenderness: false, ground: pieces.ground(), checks: None };
+        let block =
+            HybridBlock { system: &system, overturned_at_slenderness: false, ground: pieces.ground(), checks: None, coils: None };
         let found = shake_hybrid(&[block], Registers::Widest)[0].expect("lanes take it").after(&block, 0.0).unwrap();
         let case = format!("case {seed}: {structure:?} {drivetrain:?}");
         assert_eq!(Shaken::from(found).outcome(), outcome, "{case}");

@@ -347,10 +347,15 @@ fn near(one: f64, other: f64, tolerance: f64) -> bool {
 fn assert_alike(found: &Response, alone: &Response, tolerance: f64, what: &str) {
     let what = format!("{what}: {found:?} {alone:?}");
     assert_eq!(found.outcome, alone.outcome, "{what}");
-    let peaks = found.peak_rotation.zip(alone.peak_rotation);
-    assert!(peaks.map_or(found.peak_rotation == alone.peak_rotation, |(one, other)| near(one, other, tolerance)), "{what}");
+    let maybe_near = |one: Option<f64>, other: Option<f64>| match (one, other) {
+        (Some(one), Some(other)) => near(one, other, tolerance),
+        (one, other) => one == other,
+    };
+    assert!(maybe_near(found.peak_rotation, alone.peak_rotation), "{what}");
     assert!(near(found.force_ratio, alone.force_ratio, tolerance), "{what}");
     assert!(near(found.stroke_m, alone.stroke_m, tolerance), "{what}");
+    assert!(maybe_near(found.tooth_stress_mpa, alone.tooth_stress_mpa), "{what}");
+    assert!(maybe_near(found.coil_energy_j, alone.coil_energy_j), "{what}");
 }
 
 /// Outcomes, forces and strokes of the best design, again, to `tolerance`.
@@ -387,7 +392,9 @@ fn the_best_device_does_the_same_in_a_scene_of_its_own() {
 fn devices_do_in_lanes_what_they_do_alone() {
     let folder = pulses();
     let text = "scene = 'scene.toml'\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[optimise]\nmass_ratio = { from = 0.1, to = 1.5, cells = 3 }\nlaws = ['inerter', 'clutched-pair', 'coasting', 'with capacity']\nmounts = ['centre-of-mass', { mount = 'tying-point', mount_height_m = 1.8 }]\n";
-    let scene = "[block]\nsize_m = 1.0\nslenderness_deg = 10.0\nrestitution = 0.85\n\
+    let scene = "[block]\nsize_m = 1.0\nslenderness_deg = 10.0\nrestitution = 0.85\nmass_kg = 2e3\n[checks]\nlargest_stroke_m = 0.5\n\
+                 gear = { module_mm = 4.0, face_width_mm = 40.0, teeth = 20, allowable_stress_mpa = 200.0 }\n\
+                 coil = { holding_power_w = 24.0, closing_energy_j = 2.0 }\n\
                  [[device]]\nname = 'coasting'\nkind = 'clutched-pair'\nmass_ratio = 0.5\nengagement = 'rigid'\n\
                  flywheel = { dry_deceleration_m_s2 = 0.05 }\nactuation = { engagement_delay_s = 0.02, release_delay_s = 0.01 }\n\
                  [[device]]\nname = 'with capacity'\nkind = 'clutched-pair'\nmass_ratio = 0.5\nclutch = { capacity_ratio = 0.1 }\n\
@@ -396,7 +403,7 @@ fn devices_do_in_lanes_what_they_do_alone() {
     std::fs::write(folder.path().join("scene.toml"), scene).unwrap();
     let study = Study::parse(text, "study.toml", folder.path(), &[], &[folder.path().to_owned()]).unwrap();
     answered(&study, |problem, solution, _| {
-        let mut safe = 0;
+        let (mut safe, mut held) = (0, 0);
         for design in &solution.designs {
             let Candidate { curve, mass_ratio, delay_s } = design.candidate.unwrap();
             let curve = &problem.choices.curves[curve];
@@ -409,8 +416,10 @@ fn devices_do_in_lanes_what_they_do_alone() {
                 let what = format!("{}, {mass_ratio}, {}", curve.name(), motion.scaled_name());
                 assert_alike(&found, &alone, 1e-8, &what);
                 safe += usize::from(alone.outcome == Outcome::Safe);
+                held += usize::from(alone.coil_energy_j.is_some_and(|energy| energy > 0.0));
+                assert_eq!(alone.tooth_stress_mpa.is_some_and(|stress| stress > 0.0), alone.force_ratio > 0.0, "{what}");
             }
         }
-        assert!(safe > 20);
+        assert!(safe > 20 && held > 20, "{safe} {held}");
     });
 }

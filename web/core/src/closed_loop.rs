@@ -5,6 +5,7 @@ use sprag_report::plot::{LoopTrace, loop_figure};
 use sprag_shared::control::controller::Circumstances;
 use sprag_shared::control::sensing::sample::Sample;
 use sprag_shared::control::supervisor::Phase;
+use sprag_shared::observers::counted_swing::clutches;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::closed_loop::disturbance::Disturbance;
 use sprag_sim::closed_loop::failing::{ALL, Injected};
@@ -12,7 +13,6 @@ use sprag_sim::closed_loop::report::{LoopReport, write_history};
 use sprag_sim::closed_loop::run::Tick;
 use sprag_sim::closed_loop::{LoopFailure, LoopScene};
 use sprag_sim::digest::of_decisions;
-use sprag_sim::history::clutches;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::Scene;
 

@@ -94,10 +94,29 @@ impl<S: Real> Checks<S> {
         Checks { first: SUPPORT, ..self }
     }
 
+    /// Looks at the force of each flywheel, that on the support, the travel and impulses only: what a device and its gears ask for.
+    pub fn of_flywheels(self) -> Checks<S> {
+        Checks { first: FORCES, ..self }
+    }
+
+    /// The force of each flywheel is looked at.
+    pub fn looks_at_flywheels(&self) -> bool {
+        self.first <= FORCES
+    }
+
     /// Largest force of both flywheels together on their support so far, as a snapshot has it; |F|/(λmR), 1/s². None where none was ever
     /// engaged, or dragged along.
     pub fn largest_support_force(&self) -> Option<S> {
-        self.report.support.map(|largest| largest.value / self.toe.over_weight(S::ONE))
+        self.in_snapshot(self.report.support)
+    }
+
+    /// Largest force of one flywheel so far, likewise.
+    pub fn largest_flywheel_force(&self) -> Option<S> {
+        self.in_snapshot(self.report.largest_force())
+    }
+
+    fn in_snapshot(&self, largest: Option<Extreme<S>>) -> Option<S> {
+        largest.map(|largest| largest.value / self.toe.over_weight(S::ONE))
     }
 
     /// Travel of the terminals (m) at θ (rad) on `side`, from where they are at rest.
@@ -139,26 +158,34 @@ impl<S: Real> Checks<S> {
         up_to_it.report
     }
 
-    /// Whether an interval may hold a new record of the force on the support. It is a step, which follows at most half a swing of a stiff
-    /// clutch, or a piece of one ([`DeviceOutput::pieces`]), so that of three looks one shows more than half of what lies between; and where a
-    /// parabola through them also meets a fourth, no more lies between than they and its curvature show.
+    /// Whether an interval may hold a new record of a force. It is a step, which follows at most half a swing of a stiff clutch, or a piece of
+    /// one ([`DeviceOutput::pieces`]), so that of three looks one shows more than half of what lies between; and where a parabola through them
+    /// also meets a fourth, no more lies between than they and its curvature show.
     fn may_press_harder(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> bool {
-        let presses = interval.engaged || self.drags;
-        let Some(record) = self.report.support.filter(|_| presses) else { return presses };
-        let force = |share: S| {
-            let time = interval.from + share * (interval.to - interval.from);
-            self.toe.over_weight(output.snapshot(time).support_force())
-        };
-        let [first, middle, last] = [S::ZERO, S::HALF, S::ONE].map(force);
-        let seen = first.abs().larger(middle.abs()).larger(last.abs());
-        if seen <= S::HALF * record.value {
+        if !interval.engaged && !self.drags {
             return false;
         }
-        let curvature = (first - middle - middle + last).abs();
-        let parabola = S::of(0.375) * first + S::of(0.75) * middle - S::of(0.125) * last;
-        let missed = (force(S::of(0.25)) - parabola).abs();
+        let forces = |share: S| {
+            let snapshot = output.snapshot(interval.from + share * (interval.to - interval.from));
+            let [first, second] = snapshot.device.force;
+            [first, second, snapshot.support_force()].map(|force| self.toe.over_weight(force))
+        };
+        let [first, middle, last] = [S::ZERO, S::HALF, S::ONE].map(forces);
+        let seen = |i: usize| first[i].abs().larger(middle[i].abs()).larger(last[i].abs());
+        let record = |i: usize| self.report.record(FORCES + i).unwrap_or(-S::ONE);
+        let near = |i: &usize| seen(*i) > S::HALF * record(*i);
+        let looked_at = self.first.max(FORCES) - FORCES..QUANTITIES - FORCES;
+        if !looked_at.clone().any(|i| near(&i)) {
+            return false;
+        }
+        let quarter = forces(S::of(0.25));
         let rounding = S::ONE + S::EPSILON * S::of(64.0);
-        seen + curvature + S::of(8.0) * missed > record.value * rounding
+        looked_at.filter(near).any(|i| {
+            let curvature = (first[i] - middle[i] - middle[i] + last[i]).abs();
+            let parabola = S::of(0.375) * first[i] + S::of(0.75) * middle[i] - S::of(0.125) * last[i];
+            let missed = (quarter[i] - parabola).abs();
+            seen(i) + curvature + S::of(8.0) * missed > record(i) * rounding
+        })
     }
 
     fn look(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -167,7 +194,7 @@ impl<S: Real> Checks<S> {
         let end = |i: u32| if i == pieces { interval.to } else { interval.from + S::count(i) * length };
         for i in 0..pieces {
             let piece = MonotoneInterval { from: end(i), to: end(i + 1), ..*interval };
-            if self.first < SUPPORT || self.may_press_harder(output, &piece) {
+            if self.first < FORCES || self.may_press_harder(output, &piece) {
                 self.watch(output, &piece);
             }
         }

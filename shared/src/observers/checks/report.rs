@@ -51,6 +51,11 @@ impl<S: Real> Report<S> {
         self.travel.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
     }
 
+    /// Largest |F|/(mg) of one flywheel at the rack, where its teeth mesh with the drive.
+    pub fn largest_force(&self) -> Option<Extreme<S>> {
+        self.force.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
+    }
+
     /// The record of a quantity in the order of the readings: friction, −V, the forces of the flywheels, that on the support.
     pub(super) fn record(&self, quantity: usize) -> Option<S> {
         match quantity {

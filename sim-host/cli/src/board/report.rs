@@ -5,9 +5,9 @@ use std::fmt;
 use serde::Serialize;
 use sprag_report::text_table::TextTable;
 use sprag_shared::link::TickReport;
+use sprag_shared::observers::counted_swing::clutches;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::closed_loop::report::LoopSummary;
-use sprag_sim::history::clutches;
 
 use super::driver::DeviceTick;
 

@@ -37,6 +37,8 @@ pub(super) struct Expansion {
     pub(super) spins: [[Number; TERMS]; 2],
     /// Force of both flywheels together on their support; |F|/(λmR), 1/s².
     pub(super) force: [Number; RATES],
+    /// Force of a flywheel that is locked, likewise.
+    pub(super) on_wheel: [Number; RATES],
     /// The series of one lane, for the core.
     pub(super) one: LaneSeries,
 }
@@ -50,6 +52,7 @@ impl Default for Expansion {
             guards: [none; LANE_GUARDS],
             spins: [[number(0.0); TERMS]; 2],
             force: none,
+            on_wheel: none,
             one: LaneSeries {
                 motion: StepSeries::new(0.0),
                 guards: [[0.0; RATES]; LANE_GUARDS],

@@ -102,7 +102,8 @@ impl<B: LaneBody> Lanes<'_, '_, B> {
         let Some((_, seat)) = &mut self.seats[lane] else { return };
         let stretch = &self.stretch;
         if stretch.elapsed.0[lane] > 0.0 {
-            seat.take((stretch.rotation.0[lane], stretch.velocity.0[lane]), stretch.spins(lane), stretch.elapsed.0[lane]);
+            let place = (stretch.rotation.0[lane], stretch.velocity.0[lane]);
+            seat.take(place, stretch.fastest.0[lane], stretch.spins(lane), stretch.elapsed.0[lane]);
         }
         seat.motion.peaks.rotation = stretch.peak_rotation.0[lane];
         seat.motion.peaks.acceleration = stretch.peak_acceleration.0[lane];

@@ -26,6 +26,7 @@ use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::Geometry;
 
@@ -47,8 +48,10 @@ pub struct HybridBlock<'a> {
     pub overturned_at_slenderness: bool,
     /// How the ground moves.
     pub ground: Ground<'a>,
-    /// Who looks at the force on the device's support; nobody where it is not asked for.
+    /// Who looks at the device's forces; nobody where they are not asked for.
     pub checks: Option<&'a Checks<f64>>,
+    /// Who looks at its coils, likewise.
+    pub coils: Option<CoilUse>,
 }
 
 /// Motion of a block with a device to the end of its ground motion, or until it overturned.
@@ -58,8 +61,10 @@ pub struct HybridMotion {
     pub state: HybridState<f64>,
     /// Largest values and times, in rad and s from the start of the ground motion.
     pub peaks: Peaks<f64>,
-    /// Whoever looked at the force on the support ([`HybridMotion::support_force_ratio`]).
+    /// Whoever looked at the forces ([`HybridMotion::support_force_ratio`]).
     checks: Option<Checks<f64>>,
+    /// What its coils did; none where nobody looked.
+    pub coils: Option<CoilUse>,
     /// Steps that it took.
     pub steps: Steps,
 }
@@ -96,6 +101,7 @@ impl HybridBlock<'_> {
             curved: matches!(self.ground, Ground::Pieces(_)),
             plates: self.system.transmission.kind == TransmissionKind::Friction,
             forces: self.checks.is_some(),
+            flywheels: self.checks.is_some_and(Checks::looks_at_flywheels),
             terms: self.terms(),
         }
     }
@@ -142,8 +148,10 @@ pub(crate) struct Kind {
     pub(crate) curved: bool,
     /// Clutches with plates.
     pub(crate) plates: bool,
-    /// Forces are looked at.
+    /// The force on the support is looked at.
     pub(crate) forces: bool,
+    /// So are those of the flywheels.
+    pub(crate) flywheels: bool,
     /// Coefficients of θ.
     pub(crate) terms: usize,
 }
@@ -170,6 +178,11 @@ impl HybridMotion {
         self.checks.map(|checks| checks.report.support.map_or(0.0, |largest| largest.value))
     }
 
+    /// Largest |F|/(mg) of one flywheel at the rack, likewise; of checks that [look](Checks::of_flywheels) at it.
+    pub fn flywheel_force_ratio(&self) -> Option<f64> {
+        self.checks.map(|checks| checks.report.largest_force().map_or(0.0, |largest| largest.value))
+    }
+
     /// Farthest travel of the terminals to one side, m, the fall of a block that overturns included; none where nobody looked.
     pub fn stroke(&self) -> Option<f64> {
         self.checks.map(|checks| checks.travel(Sign::Positive, self.peaks.rotation).abs())
@@ -177,12 +190,12 @@ impl HybridMotion {
 
     /// The state, and those who watch it from `origin` (s) on.
     fn watched(&mut self, origin: f64) -> (&mut HybridState<f64>, Watch<'_>) {
-        let HybridMotion { state, peaks, checks, .. } = self;
+        let HybridMotion { state, peaks, checks, coils, .. } = self;
         peaks.origin = origin;
         if let Some(checks) = checks {
             checks.origin = origin;
         }
-        (state, Watch { peaks, checks: checks.as_mut(), pressed: true })
+        (state, Watch { peaks, checks: checks.as_mut(), coils: coils.as_mut(), pressed: true })
     }
 }
 

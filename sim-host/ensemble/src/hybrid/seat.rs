@@ -30,6 +30,7 @@ impl<'a> Seat<'a> {
             state: block.system.at_rest(),
             peaks: Peaks::default(),
             checks: block.checks.copied(),
+            coils: block.coils,
             steps: Steps::default(),
         };
         Seat { block, interval: 0, progress: Progress::default(), motion }
@@ -176,9 +177,12 @@ impl<'a> Seat<'a> {
         Ok(None)
     }
 
-    /// The lane has taken the block to (θ, θ̇) where it is in its ground motion, and flywheels whose plates slip to the speeds `spins`, in
-    /// `time` (s) since the core had it.
-    pub(super) fn take(&mut self, place: (f64, f64), spins: [f64; 2], time: f64) {
+    /// The lane has taken the block to (θ, θ̇) where it is in its ground motion, no faster than `fastest` (rad/s), and flywheels whose plates
+    /// slip to the speeds `spins`, in `time` (s) since the core had it.
+    pub(super) fn take(&mut self, place: (f64, f64), fastest: f64, spins: [f64; 2], time: f64) {
+        if let Some(coils) = &mut self.motion.coils {
+            coils.moves(self.motion.state.device.wheels.map(|wheel| wheel.coupling.is_engaged()), fastest, time);
+        }
         let ground = match &self.block.ground {
             Ground::Record(record) => record.at(self.interval),
             ground => ground.over(self.interval, |shaking| {

@@ -51,7 +51,7 @@ pub(super) struct Stepped {
     pub(super) goes_on: Mask,
     /// Those of which it is shown that no guard is reached before.
     pub(super) guarded: Mask,
-    /// Those of which the force on the support may be larger than ever.
+    /// Those of which a force that is looked at may be larger than ever.
     pub(super) pressed: Mask,
     /// Lengths of the steps, s.
     pub(super) time: Number,
@@ -91,6 +91,12 @@ pub(super) struct Stretch<B> {
     overturned: Number,
     /// Largest force on the support so far, 1/s².
     largest_force: Number,
+    /// Largest force of one flywheel so far, 1/s².
+    largest_on_wheel: Number,
+    /// Largest force of plates that slip in this mode, 1/s².
+    slip_force: Number,
+    /// max |θ̇| since the core had the block, rad/s.
+    pub(super) fastest: Number,
     /// max |θ|, rad.
     pub(super) peak_rotation: Number,
     /// max |θ̈|, rad/s².
@@ -119,6 +125,9 @@ impl<B: LaneBody> Stretch<B> {
             due: number(f64::INFINITY),
             overturned: one,
             largest_force: zero,
+            largest_on_wheel: zero,
+            slip_force: zero,
+            fastest: zero,
             peak_rotation: zero,
             peak_acceleration: zero,
         }
@@ -147,7 +156,9 @@ impl<B: LaneBody> Stretch<B> {
             self.set_plates(lane, &state.device, law);
         }
         self.largest_force.0[lane] = checks.and_then(|checks| checks.largest_support_force()).unwrap_or(0.0);
-        self.elapsed.0[lane] = 0.0;
+        self.largest_on_wheel.0[lane] = checks.and_then(|checks| checks.largest_flywheel_force()).unwrap_or(0.0);
+        self.slip_force.0[lane] = law.slip[0].abs().max(law.slip[1].abs());
+        (self.elapsed.0[lane], self.fastest.0[lane]) = (0.0, state.motion.velocity.abs());
         self.due.0[lane] = seat.block.system.next_due(state).unwrap_or(f64::INFINITY);
         (self.peak_rotation.0[lane], self.peak_acceleration.0[lane]) = (peaks.rotation, peaks.acceleration);
         self.stand_at(lane, seat);
@@ -191,7 +202,7 @@ impl<B: LaneBody> Stretch<B> {
     pub(super) fn step(&mut self, expansion: &mut Expansion) -> Stepped {
         let nothing = number(0.0);
         self.expand(expansion);
-        let Expansion { motion: series, guards, spins, force, .. } = &*expansion;
+        let Expansion { motion: series, guards, spins, force, on_wheel, .. } = &*expansion;
         let time = if self.kind.curved { self.length.smaller(self.reach(&*expansion)) } else { self.length };
         let half_square = number(0.125) * (time * time);
 
@@ -230,13 +241,18 @@ impl<B: LaneBody> Stretch<B> {
             }
         }
         // A larger force than ever is for the core's observer.
-        let pressed = if self.kind.forces {
+        let largest = |force: &[Number; RATES]| {
             let force = &force[..in_use];
             let ends = force[0].abs().larger(value(force, time).abs());
-            (ends + half_square * bend_of(force, time)).exceeds(self.largest_force)
-        } else {
-            Mask::NONE
+            ends + half_square * bend_of(force, time)
         };
+        let mut pressed = Mask::NONE;
+        if self.kind.forces {
+            pressed = largest(force).exceeds(self.largest_force);
+        }
+        if self.kind.flywheels {
+            pressed = pressed | largest(on_wheel).larger(self.slip_force).exceeds(self.largest_on_wheel);
+        }
         let converged = self.converges(series, time);
         let clean = !pressed & converged & goes_on & tilted & stays & in_time & guarded;
 
@@ -253,6 +269,7 @@ impl<B: LaneBody> Stretch<B> {
         self.peak_rotation = clean.choose(self.peak_rotation.larger(end.0.abs()), self.peak_rotation);
         self.rotation = clean.choose(end.0, self.rotation);
         self.velocity = clean.choose(end.1, self.velocity);
+        self.fastest = clean.choose(self.fastest.larger(end.1.abs()), self.fastest);
         if self.kind.plates {
             for (spin, end) in self.plates.spin.iter_mut().zip(spin_ends) {
                 *spin = clean.choose(end, *spin);
@@ -269,7 +286,7 @@ impl<B: LaneBody> Stretch<B> {
         // θ, θ̇, the ground twice, the clock and two flywheels.
         const GIVEN: usize = 7;
         let zero = number(0.0);
-        let Expansion { tape, motion: series, guards, spins, force, .. } = expansion;
+        let Expansion { tape, motion: series, guards, spins, force, on_wheel, .. } = expansion;
         let tape = &*tape;
         let body = self.body.known(self.kind);
         let next = Cell::new(GIVEN);
@@ -278,7 +295,9 @@ impl<B: LaneBody> Stretch<B> {
             spin[0] = self.plates.spin[i];
             tape.set(5 + i, 0, spin[0]);
         }
-        for (k, force) in force.iter_mut().enumerate() {
+        // Of a flywheel that is locked; of none without one.
+        let one_locked = self.locked.smaller(number(1.0));
+        for (k, (force, on_wheel)) in force.iter_mut().zip(on_wheel).enumerate() {
             for way in 0..2 {
                 tape.set(2 + way, k, self.ground[way][k]);
             }
@@ -305,11 +324,12 @@ impl<B: LaneBody> Stretch<B> {
             series.extend(tape, k, acceleration.last());
             guards[0][k] = body.switching(&at.configuration, at.velocity, moment).last() * self.watched;
             if self.kind.plates || self.kind.forces {
-                let on_wheel = locked_force(&at, acceleration);
-                *force = on_wheel.last() * self.locked;
+                let locked = locked_force(&at, acceleration);
+                *force = locked.last() * self.locked;
+                *on_wheel = locked.last() * one_locked;
                 if self.kind.plates {
                     let Plates { capacity, stick, slip: signs, .. } = &self.plates;
-                    let sticks = below_capacity(&at, on_wheel, (*capacity, zero)).last();
+                    let sticks = below_capacity(&at, locked, (*capacity, zero)).last();
                     for (i, rate) in spin_rates(&at).into_iter().enumerate() {
                         guards[i + 1][k] = stick[i].choose(sticks, slip(&at, signs[i], i).last());
                         let coefficient = rate.last() * number(RECIPROCALS[(k + 1) & 63]);

@@ -6,12 +6,14 @@ use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::observers::peaks::Peaks;
 
-/// Peaks, and the force on the support where that is asked for.
+/// Peaks, and forces and the use of coils where these are asked for.
 pub(super) struct Watch<'a> {
     pub(super) peaks: &'a mut Peaks<f64>,
     pub(super) checks: Option<&'a mut Checks<f64>>,
+    pub(super) coils: Option<&'a mut CoilUse>,
     /// The steps may press harder than any before them; the bounces that a rest stands for may do so anyway.
     pub(super) pressed: bool,
 }
@@ -22,6 +24,18 @@ impl Observer<f64> for Watch<'_> {
         if let Some(checks) = self.checks.as_mut().filter(|_| self.pressed) {
             checks.device_interval(output, interval);
         }
+        if let Some(coils) = &mut self.coils {
+            coils.device_interval(output, interval);
+        }
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        if let Some(checks) = &mut self.checks {
+            checks.device_at_rest(output, interval);
+        }
+        if let Some(coils) = &mut self.coils {
+            coils.device_at_rest(output, interval);
+        }
     }
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
@@ -29,10 +43,16 @@ impl Observer<f64> for Watch<'_> {
         if let Some(checks) = &mut self.checks {
             checks.event(event, time, state);
         }
+        if let Some(coils) = &mut self.coils {
+            coils.event(event, time, state);
+        }
     }
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.peaks.accumulation(tail);
+        if let Some(coils) = &mut self.coils {
+            coils.accumulation(tail);
+        }
     }
 
     fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {

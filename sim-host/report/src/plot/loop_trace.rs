@@ -1,9 +1,9 @@
 //! A simulated closed loop as its figure shows it.
 
+use sprag_shared::observers::counted_swing::clutches;
 use sprag_shared::structure::block::Block;
 use sprag_sim::closed_loop::report::LoopReport;
 use sprag_sim::closed_loop::run::Tick;
-use sprag_sim::history::clutches;
 
 use super::LoopTrace;
 

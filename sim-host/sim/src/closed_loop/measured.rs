@@ -5,6 +5,7 @@ use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
 
 use super::disturbance::Disturbance;
 use super::driver::Driver;
@@ -14,7 +15,6 @@ use super::{LoopFailure, LoopTask};
 use crate::ground_motion::Segment;
 use crate::scene::checks::ChecksTable;
 use crate::simulation::DeviceRun;
-use crate::simulation::coil_use::CoilUse;
 use crate::simulation::demand::Demand;
 use crate::simulation::device_run::Found;
 use crate::simulation::drive::Segmented;

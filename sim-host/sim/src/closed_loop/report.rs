@@ -5,6 +5,7 @@ use std::io::Write;
 
 use serde::Serialize;
 use sprag_shared::control::supervisor::Phase;
+use sprag_shared::observers::counted_swing::clutches;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::error::Number;
 
@@ -14,7 +15,6 @@ use super::run::Tick;
 use super::{LoopFailure, LoopTask};
 use crate::csv_field::quoted;
 use crate::effect::number::true_minus;
-use crate::history::clutches;
 use crate::simulation::demand::Demand;
 use crate::simulation::scatter::Scatter;
 use crate::simulation::{DeviceRun, ErrorReport};

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
+use sprag_shared::observers::coil_use::CoilUse;
 
 use super::error::SceneError;
 use super::schema::KeyOf;
@@ -62,6 +63,13 @@ pub struct CoilTable {
     pub largest_energy_j: Option<f64>,
 }
 
+impl CoilTable {
+    /// What the coils, of which each is this one, take for what was `used`: holding power × time engaged + energy of the closings, J.
+    pub fn energy_j(&self, used: &CoilUse) -> f64 {
+        self.holding_power_w * used.engaged_s + self.closing_energy_j * f64::from(used.closings)
+    }
+}
+
 impl ChecksTable {
     /// # Errors
     /// [`SceneError`] names the key.
@@ -70,5 +78,19 @@ impl ChecksTable {
             return Err(key("checks.gear").conflict("a stress needs a force in N, and so block.mass_kg"));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn energy_is_power_times_time_and_a_share_for_each_closing() {
+        let coil = CoilTable { holding_power_w: 24.0, closing_energy_j: 5.0, largest_energy_j: None };
+        let mut used = CoilUse::default();
+        used.hold([true, false], 0.3);
+        used.hold([false, true], 1.0);
+        assert!((coil.energy_j(&used) - (24.0 * 1.3 + 10.0)).abs() < 1e-12);
     }
 }

@@ -5,11 +5,11 @@ use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
+use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::counted_swing::CountedSwing;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
-use super::coil_use::CoilUse;
-use super::counted_swing::CountedSwing;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};

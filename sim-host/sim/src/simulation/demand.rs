@@ -3,16 +3,17 @@
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::observers::checks::{Checks, Extreme, Report};
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::structure::Base;
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::device::DeviceKind;
 use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
 use sprag_shared::structure::inertance::Flywheel;
 
-use super::coil_use::CoilUse;
 use super::run::Task;
 use crate::ground_motion::GroundMotion;
-use crate::scene::checks::ChecksTable;
+use crate::scene::Scene;
+use crate::scene::checks::{ChecksTable, GearTable};
 use crate::scene::device::FlywheelTable;
 
 /// The results of `[checks]`, the fall of a block that overturns left out; none where the block never rocked.
@@ -109,7 +110,7 @@ impl Located {
         let force = |extreme: Extreme<S>| times(heavier(task), extreme);
         Located {
             support: report.support.map(force),
-            drive: report.force.into_iter().flatten().map(force).reduce(|a, b| if b.value > a.value { b } else { a }),
+            drive: report.largest_force().map(force),
             stroke: report.stroke().map(|extreme| times(1.0, extreme)),
         }
     }
@@ -129,21 +130,18 @@ pub(super) fn support_force_ratio<S: Real>(task: &Task<'_>, report: &Report<S>) 
     number(&report.support).map(|force| force * heavier(task))
 }
 
-/// Bending stress of the teeth at each mesh of the device of `task`, MPa, under the largest forces of `report`; none without gears.
-fn tooth_stresses<S: Real>(task: &Task<'_>, table: &ChecksTable, report: &Report<S>) -> Vec<f64> {
-    // The teeth of the rack mesh with the drive of one flywheel each.
-    let drive = report.force.iter().filter_map(number).reduce(f64::max).map(|force| force * heavier(task));
-    let (Some(gear), Some(mass), Some(force)) = (&table.gear, task.scene.file.block.mass_kg, drive) else {
-        return Vec::new();
-    };
+/// Bending stress of the teeth at each mesh of device `index` of `scene`, MPa, of which the first is `gear` and carries `force_ratio`, over the
+/// block's weight; none where the block has no mass.
+pub(crate) fn tooth_stresses(gear: &GearTable, scene: &Scene, index: usize, force_ratio: f64) -> Vec<f64> {
+    let Some(mass) = scene.file.block.mass_kg else { return Vec::new() };
     let tooth = Gear {
         module_m: gear.module_mm * 1e-3,
         face_width_m: gear.face_width_mm * 1e-3,
         teeth: gear.teeth,
         allowable_stress_pa: gear.allowable_stress_mpa * 1e6,
     };
-    let load = force * mass * GRAVITY;
-    let train: Vec<Flywheel> = task.scene.file.device[task.index].flywheels.iter().flatten().map(FlywheelTable::wheel).collect();
+    let load = force_ratio * mass * GRAVITY;
+    let train: Vec<Flywheel> = scene.file.device[index].flywheels.iter().flatten().map(FlywheelTable::wheel).collect();
     let ratios: Vec<f64> = match tooth_load_ratios(&train) {
         Ok(ratios) => ratios.collect(),
         Err(_) => vec![1.0],
@@ -170,6 +168,12 @@ impl Demand {
         // |H|/V grows without bound towards V = 0: what is found of it there is a matter of rounding.
         let friction = report.friction.filter(|_| contact_lost.is_none());
         let farthest = |report: &Report<S>| report.stroke().map(|extreme| extreme.value.to_f64());
+        // The teeth of the rack mesh with the drive of one flywheel each.
+        let stresses = |report: &Report<S>| {
+            let force = number(&report.largest_force()).map(|force| force * heavier(task));
+            let (gear, force) = table.gear.as_ref().zip(force)?;
+            Some(tooth_stresses(gear, task.scene, task.index, force))
+        };
         let mut demand = Demand {
             friction_needed: number(&friction).or_else(|| standing_friction(task, table).filter(|_| contact_lost.is_none())),
             friction_needed_time_s: friction.map(|extreme| extreme.time.to_f64()),
@@ -177,11 +181,11 @@ impl Demand {
             contact_lost_time_s: contact_lost.map(Real::to_f64),
             force_ratio: support_force_ratio(task, &report),
             stroke_m: farthest(&report),
-            tooth_stress_mpa: tooth_stresses(task, table, &report),
-            coil_energy_j: table.coil.as_ref().zip(coils).map(|(coil, used)| used.energy_j(coil)),
+            tooth_stress_mpa: stresses(&report).unwrap_or_default(),
+            coil_energy_j: table.coil.as_ref().zip(coils).map(|(coil, used)| coil.energy_j(&used)),
             warnings: Vec::new(),
             stroke_with_fall_m: farthest(&whole),
-            tooth_stress_with_fall_mpa: table.gear.map(|_| tooth_stresses(task, table, &whole).into_iter().fold(0.0, f64::max)),
+            tooth_stress_with_fall_mpa: table.gear.map(|_| stresses(&whole).into_iter().flatten().fold(0.0, f64::max)),
             located: Located::of(task, &report),
             coils,
         };

@@ -2,11 +2,8 @@
 
 #[cfg_attr(not(feature = "effects"), path = "unasked.rs")]
 mod asked;
-#[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects hold clutches"))]
-pub mod coil_use;
 #[cfg(feature = "effects")]
 mod compliant;
-pub mod counted_swing;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;
 #[cfg(all(test, feature = "effects"))]

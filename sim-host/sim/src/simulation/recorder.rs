@@ -7,12 +7,12 @@ use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
+use sprag_shared::observers::counted_swing::{CountedSwing, clutches};
 use sprag_shared::structure::block::GRAVITY;
 
-use super::counted_swing::CountedSwing;
 use super::drive::Segmented;
 use crate::ground_motion::Segment;
-use crate::history::{Sample, clutches};
+use crate::history::Sample;
 
 /// Samples at a regular interval, and on both sides of every event at which something may jump.
 #[derive(Debug)]

@@ -5,6 +5,7 @@ use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::state::Stopped;
 use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::counted_swing::CountedSwing;
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::DeviceKind;
@@ -13,7 +14,6 @@ use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::{Base, Structure};
 
 use super::asked::Asked;
-use super::counted_swing::CountedSwing;
 use super::device_run::{DeviceRun, ErrorReport};
 use super::drive::{Course, Overturning};
 use super::recorder::Recorder;
@@ -101,7 +101,7 @@ pub fn simulate(scene: &Scene, ground: &GroundMotions, interrupt: &Interrupt) ->
 }
 
 /// As [`simulate`], for studies, which report no forces and impulses: they are looked at where the scene has `[checks]` only, and there the
-/// toe is left out unless the table asks for friction or gears.
+/// toe is left out unless the table asks for friction.
 ///
 /// # Errors
 /// The errors of [`simulate`], and [`RunError::LiftedOff`].
@@ -299,7 +299,8 @@ impl<'a> Task<'a> {
                 .counting(CountedSwing::of(loaded)),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
             checks: checks.map(|checks| match &self.scene.file.checks {
-                Some(table) if self.reports || table.gear.is_some() || table.friction_coefficient.is_some() => checks,
+                Some(table) if self.reports || table.friction_coefficient.is_some() => checks,
+                Some(table) if table.gear.is_some() => checks.of_flywheels(),
                 Some(_) => checks.of_device(),
                 None => checks.brief(),
             }),

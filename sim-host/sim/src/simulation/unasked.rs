@@ -4,9 +4,9 @@ use std::marker::PhantomData;
 
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::observer::Observer;
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::structure::Structure;
 
-use super::coil_use::CoilUse;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};

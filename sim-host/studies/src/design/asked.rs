@@ -2,6 +2,7 @@
 
 use sprag_shared::math;
 use sprag_shared::observers::checks::Extreme;
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::GRAVITY;
 use sprag_sim::accuracy::ErrorEstimate;
@@ -10,7 +11,6 @@ use sprag_sim::scene::Scene;
 use sprag_sim::scene::checks::CoilTable;
 use sprag_sim::scene::motions::GroundMotions;
 use sprag_sim::simulation::DeviceRun;
-use sprag_sim::simulation::coil_use::CoilUse;
 use sprag_sim::simulation::demand::Located;
 
 /// The largest of each, with its time (s). Forces are over the block's weight.
@@ -119,7 +119,7 @@ impl Asked {
 
     /// Energy of the coils of both clutches, of which each is `coil`, J.
     pub fn coil_energy_j(&self, coil: Option<&CoilTable>) -> Option<Extreme<f64>> {
-        self.coils.zip(coil).map(|(coils, coil)| whole_run(coils.energy_j(coil)))
+        self.coils.zip(coil).map(|(coils, coil)| whole_run(coil.energy_j(&coils)))
     }
 }
 

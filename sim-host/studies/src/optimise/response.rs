@@ -40,16 +40,16 @@ impl Response {
         }
     }
 
-    /// Response of `block` that lanes have followed and watched, without gear and coil.
+    /// Response of `block` that lanes have followed and watched.
     pub fn of_followed(followed: &Followed, block: &Block) -> Option<Response> {
-        let DeviceDemand { force_ratio, stroke_m } = followed.demand?;
+        let DeviceDemand { force_ratio, stroke_m, tooth_stress_mpa, coil_energy_j } = followed.demand?;
         Some(Response {
             outcome: followed.motion.outcome(),
             peak_rotation: followed.motion.relative_peaks(block).map(|(rotation, _)| rotation),
             force_ratio,
             stroke_m,
-            tooth_stress_mpa: None,
-            coil_energy_j: None,
+            tooth_stress_mpa,
+            coil_energy_j,
             error: None,
         })
     }

@@ -1,14 +1,12 @@
 //! What the coils of a device's clutches take: how long they hold, and how often they close.
 
-use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::device_snapshot::DeviceOutput;
-use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::impact_accumulation::Accumulation;
-use sprag_shared::motion::state::BlockState;
+use crate::math::scalar::Real;
+use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::observer::{Event, MonotoneInterval, Observer};
+use crate::motion::rest::impact_accumulation::Accumulation;
+use crate::motion::state::BlockState;
 
-use super::counted_swing::CountedSwing;
-use crate::history::clutches;
-use crate::scene::checks::CoilTable;
+use super::counted_swing::{CountedSwing, clutches};
 
 /// How long both clutches of a pair were engaged, and how often they closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -40,9 +38,10 @@ impl CoilUse {
         }
     }
 
-    /// What `coil`, of each clutch, takes for it: holding power × time engaged + energy of the closings, J.
-    pub fn energy_j(&self, coil: &CoilTable) -> f64 {
-        coil.holding_power_w * self.engaged_s + coil.closing_energy_j * f64::from(self.closings)
+    /// The block has moved, no faster than `fastest` (rad/s), for `duration` (s), in which nothing happened and the clutches were `engaged`.
+    pub fn moves(&mut self, engaged: [bool; 2], fastest: f64, duration: f64) {
+        self.swing.reaches(fastest);
+        self.hold(engaged, duration);
     }
 }
 
@@ -50,9 +49,9 @@ impl CoilUse {
 impl<S: Real> Observer<S> for CoilUse {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        self.swing.moves(interval);
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
-        self.hold(engaged, (interval.to - interval.from).to_f64());
+        let fastest = interval.first.velocity.abs().larger(interval.last.velocity.abs());
+        self.moves(engaged, fastest.to_f64(), (interval.to - interval.from).to_f64());
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -76,14 +75,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn energy_is_power_times_time_and_a_share_for_each_closing() {
+    fn time_counts_for_each_clutch_and_a_closing_once() {
         let mut used = CoilUse::default();
         for (engaged, duration) in [([true, false], 0.2), ([true, false], 0.1), ([false; 2], 1.0), ([true, true], 0.5)] {
             used.hold(engaged, duration);
         }
         assert_eq!(used.closings, 3);
         assert!((used.engaged_s - 1.3).abs() < 1e-12);
-        let coil = CoilTable { holding_power_w: 24.0, closing_energy_j: 5.0, largest_energy_j: None };
-        assert!((used.energy_j(&coil) - (24.0 * 1.3 + 15.0)).abs() < 1e-12);
     }
 }

@@ -1,10 +1,15 @@
 //! Swings whose clutch switches count: as with impacts, those of a dying motion are infinitely many, and the rest threshold decides how many of
 //! them are followed.
 
-use sprag_shared::math::scalar::Real;
-use sprag_shared::motion::observer::{Event, MonotoneInterval};
-use sprag_shared::motion::state::BlockState;
-use sprag_shared::structure::{COUNTED_SPEED, Structure};
+use crate::math::scalar::Real;
+use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::state::BlockState;
+use crate::structure::{COUNTED_SPEED, Structure};
+
+/// Which clutches are engaged, as a number: 0 none, 1 the first, 2 the second, 3 both.
+pub fn clutches(engaged: [bool; 2]) -> u8 {
+    u8::from(engaged[0]) + 2 * u8::from(engaged[1])
+}
 
 /// Whether the present swing counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,7 +28,12 @@ impl CountedSwing {
 
     /// The block moves.
     pub fn moves<S: Real>(&mut self, interval: &MonotoneInterval<S>) {
-        self.weak &= interval.first.velocity.abs().larger(interval.last.velocity.abs()).to_f64() <= self.speed;
+        self.reaches(interval.first.velocity.abs().larger(interval.last.velocity.abs()).to_f64());
+    }
+
+    /// The block moves as fast as `velocity` (rad/s, not negative).
+    pub fn reaches(&mut self, velocity: f64) {
+        self.weak &= velocity <= self.speed;
     }
 
     /// A swing that an impact leaves too slow does not count unless it gets faster.
