@@ -258,7 +258,8 @@ impl<S: Real> Observer<S> for Checks<S> {
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        if interval.to > interval.from {
+        let bears = interval.engaged || self.drags || self.on_support;
+        if bears && interval.to > interval.from {
             let first = if self.on_support { self.first } else { self.first.max(FORCES) };
             let mut standing = Checks { first, travels: false, ..*self };
             standing.look(output, interval);

@@ -6,12 +6,14 @@ use sprag_shared::equation::body::Body;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::math::sign::Sign;
+use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
 use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::hybrid::footing::Footing;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
+use sprag_shared::motion::rest::free_decay::Decay;
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
@@ -332,11 +334,24 @@ impl<'a> Plant<'a> {
 /// A watcher, and what sensors need to know.
 struct Watched<'a>(&'a mut dyn Watcher, &'a mut Shocks, &'a mut Path);
 
+// What sensors need is in the motion; all else is the watcher's alone.
 impl Observer<f64> for Watched<'_> {
+    fn every_swing(&self) -> bool {
+        self.0.every_swing()
+    }
+
+    fn interval(&mut self, output: &dyn DenseOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.interval(output, interval);
+    }
+
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.0.device_interval(output, interval);
         self.1.device_interval(output, interval);
         self.2.device_interval(output, interval);
+    }
+
+    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+        self.0.device_at_rest(output, interval);
     }
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
@@ -345,8 +360,16 @@ impl Observer<f64> for Watched<'_> {
         self.2.event(event, time, state);
     }
 
+    fn decay(&mut self, decay: &Decay<f64>) {
+        self.0.decay(decay);
+    }
+
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.0.accumulation(tail);
+    }
+
+    fn bounce(&mut self, way: (Sign, Sign), acceleration: f64, time: f64) {
+        self.0.bounce(way, acceleration, time);
     }
 
     fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {

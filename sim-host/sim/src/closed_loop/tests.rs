@@ -332,3 +332,40 @@ fn the_checks_of_a_loop_count_the_last_bounces() {
     let [summed, followed] = [1e-6, 1e-8].map(reaction);
     assert!((summed - followed).abs() < 1e-3 && followed < 0.95, "{summed} {followed}");
 }
+
+/// Ticks for which a clutch is closed.
+const CLOSED: u32 = 40;
+
+/// Plates with a capacity of F = ct that close four times for τ while the block rocks give its flywheel an impulse of 4 cτ²/2. Where they close
+/// while the block stands, they take as long to stop it as c(2τ)²/2 says.
+#[test]
+fn plates_that_slip_behind_a_standing_block_are_looked_at() {
+    let text = "block = { size_m = 2.0, slenderness_deg = 12.0, restitution = 0.5 }
+        device = [{ kind = 'clutched-pair', mass_ratio = 0.5, clutch.capacity_ratio = 0.1, actuation.rise_time_s = 2.0 }]
+        ground = [{ motion = 'sine', amplitude_g = 0.5, frequency_hz = 1.3 }]
+        checks = {}";
+    let desk = LoopScene::new(Scene::parse(text, "scene").unwrap()).unwrap();
+    let interrupt = Interrupt::default();
+    let task = desk.task(0, 1, &interrupt);
+    let loaded = desk.scene.structure(0).loaded().unwrap();
+    let (mut plant, mut watchers) = (task.plant(&loaded.block).unwrap(), task.task().watchers(&loaded).ok().unwrap());
+    // Ticks that are left of a closing, closings so far, and ticks at rest after them.
+    let (mut left, mut closings, mut stood) = (0, 0, 0);
+    for instants in ticks(20.0, 1) {
+        let Whereabouts { motion, time, .. } = plant.whereabouts();
+        if left > 0 {
+            left -= 1;
+        } else if closings < 4 && motion.velocity > 0.2 {
+            (left, closings) = (CLOSED, closings + 1);
+        }
+        let stands = closings == 4 && motion.phase == Phase::Rest && time > 1.0;
+        stood += u32::from(stands);
+        plant.order([left > 0 || stands, false], &mut watchers);
+        plant.advance(&instants, &mut watchers, &mut |_, _| {}).unwrap();
+    }
+    assert!(stood > 2 * CLOSED, "{closings} closings, {stood} ticks at rest");
+    let largest = watchers.checks.unwrap().report.support.unwrap().value;
+    // While the block rocks, 0.1 τ/2 s.
+    let rocking = 0.1 * f64::from(CLOSED) * PERIOD / 2.0;
+    assert!((largest / (2.0 * rocking) - 1.0).abs() < 0.02, "{largest} and {rocking}");
+}
