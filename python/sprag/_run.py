@@ -74,7 +74,7 @@ class Run(SceneResult):
     force_ratio
         Force of each flywheel over the block's weight, a row each.
     engaged
-        The flywheels that move with the block: 0 none, 1 the first, 2 the second, 3 both.
+        The flywheels that are engaged: 0 none, 1 the first, 2 the second, 3 both.
     displacement_m
         Displacement of the base over the ground, m; 0 where it cannot slide.
     t_events

@@ -4,7 +4,7 @@ use crate::math::scalar::Real;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::impact_accumulation::Accumulation;
-use crate::motion::state::BlockState;
+use crate::motion::state::{BlockState, Phase};
 
 use super::counted_swing::{CountedSwing, clutches};
 
@@ -19,6 +19,8 @@ pub struct CoilUse {
     swing: CountedSwing,
     /// Those that count as engaged, a bit each.
     engaged: u8,
+    /// The block stands on its base.
+    stands: bool,
 }
 
 impl CoilUse {
@@ -42,10 +44,11 @@ impl CoilUse {
     pub fn moves(&mut self, engaged: [bool; 2], fastest: f64, duration: f64) {
         self.swing.reaches(fastest);
         self.hold(engaged, duration);
+        self.stands = false;
     }
 }
 
-/// Clutches that the motion itself switches, by Eq. 10: they are released while the block stands, but on a support of its own motion.
+/// Clutches that the motion itself switches, by Eq. 10: they are released while its weight holds the block, but on a support of its own motion.
 impl<S: Real> Observer<S> for CoilUse {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
@@ -56,6 +59,7 @@ impl<S: Real> Observer<S> for CoilUse {
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.device_interval(output, interval);
+        self.stands = true;
     }
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
@@ -64,7 +68,9 @@ impl<S: Real> Observer<S> for CoilUse {
 
     fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
         self.swing.begins(event, state);
-        if event == Event::Rest && !self.carried {
+        // Those that hold a block on its base stay engaged until its weight alone does.
+        let at_rest = event == Event::Rest || (event == Event::Switch && self.stands);
+        if at_rest && state.phase == Phase::Rest && !self.carried {
             self.hold([false; 2], 0.0);
         }
     }

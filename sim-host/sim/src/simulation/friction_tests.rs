@@ -231,3 +231,73 @@ fn a_turn_over_a_held_flywheel_is_a_turn_at_any_step() {
         }
     }
 }
+
+/// A block that bearings hold on its base where its weight does not: the ground pushes it with 1.1 g tan α at most.
+fn held_down(checks: &str) -> String {
+    format!(
+        "block = {{ size_m = 1.0, slenderness_deg = {SLENDERNESS_DEG} }}
+        device = [{{ kind = 'clutched-pair', mass_ratio = 1.0, clutch.capacity_ratio = 0.5, flywheel.dry_deceleration_m_s2 = 4.0 }}]
+        ground = [{{ motion = 'sine', amplitude_g = {}, frequency_hz = 1.0 }}]
+        run = {{ free_time_s = 0.5 }}
+        {checks}",
+        1.1 * math::tan(SLENDERNESS_DEG.to_radians())
+    )
+}
+
+const COIL: &str = "checks = { coil = { holding_power_w = 24, closing_energy_j = 5 } }";
+
+/// They hold as long as |ü_g| is above g tan α, twice for (π − 2 arcsin 1/1.1)/(2π) s, with what the weight leaves.
+#[test]
+fn a_history_shows_the_clutches_that_hold_a_standing_block() {
+    let run = runs_of(&held_down(COIL)).remove(0);
+    let tangent = math::tan(SLENDERNESS_DEG.to_radians());
+    assert_eq!(run.outcome, Outcome::NoRocking);
+    for sample in &run.history.samples {
+        let beyond = sample.ground_m_s2 / GRAVITY / tangent;
+        let (engaged, holds) = match beyond.abs() {
+            // Where they switch a sample is on either side.
+            near if (near - 1.0).abs() < 1e-9 => continue,
+            below if below < 1.0 => (0, 0.0),
+            // A push towards θ > 0 is for the first to resist.
+            above => (if beyond < 0.0 { 1 } else { 2 }, (above - 1.0) * tangent),
+        };
+        assert_eq!(sample.engaged, engaged, "{sample:?}");
+        assert!((sample.transferred_force_ratio().abs() - holds).abs() < 1e-6, "{sample:?}");
+    }
+    let coils = run.checks.as_ref().unwrap().coils.unwrap();
+    assert_eq!((run.clutch_switches, coils.closings), (4, 2));
+    let shown: f64 = run.history.engagements().iter().map(|(start, end, _)| end - start).sum();
+    let above = 1.0 - std::f64::consts::FRAC_2_PI * math::asin(1.0 / 1.1);
+    for held in [shown, coils.engaged_s] {
+        assert!((held - above).abs() < 1e-6, "{held} and {above}");
+    }
+}
+
+/// What a history shows is what the coils take, but for bounces that a rest stands for.
+#[test]
+fn a_history_shows_what_coils_take_of_a_standing_block_too() {
+    for text in [
+        "block = { size_m = 0.762, slenderness_deg = 17.06 }
+        device = [{ kind = 'clutched-pair', mass_ratio = 1.226, clutch.capacity_ratio = 0.3052,
+            flywheel = { viscous_rate_1_s = 5.761, dry_deceleration_m_s2 = 1.941, brake_deceleration_m_s2 = 'instant' } }]
+        ground = [{ motion = 'mavroeidis-papageorgiou', velocity_amplitude_m_s = 0.7584, frequency_hz = 2.059,
+            oscillations = 2.4814, phase_deg = 50.1, start_s = 1.27 }]",
+        // It falls back on its base, and its clutch stays engaged.
+        "block = { size_m = 0.997, slenderness_deg = 17.17, restitution = 1e-9 }
+        device = [{ kind = 'clutched-pair', mass_ratio = 1.492, clutch.capacity_ratio = 0.125,
+            flywheel = { viscous_rate_1_s = 2.283, dry_deceleration_m_s2 = 1.224 } }]
+        ground = [{ motion = 'mavroeidis-papageorgiou', velocity_amplitude_m_s = 0.8174, frequency_hz = 1.042,
+            oscillations = 2.2593, phase_deg = 250.7, start_s = 0.3 }]",
+    ] {
+        let run = runs_of(&format!("{text}\nrun = {{ free_time_s = 0.0 }}\n{COIL}")).remove(0);
+        let coils = run.checks.as_ref().unwrap().coils.unwrap();
+        let engaged = run.history.samples.iter().map(|sample| sample.engaged);
+        let pairs = engaged.clone().zip(engaged.skip(1));
+        let closings: u32 = pairs.clone().map(|(before, after)| (after & !before).count_ones()).sum();
+        let switches = pairs.filter(|(before, after)| before != after).count();
+        assert_eq!((closings, switches), (coils.closings, run.clutch_switches as usize), "{text}");
+        let engagements = run.history.engagements();
+        let shown: f64 = engagements.iter().map(|(start, end, which)| (end - start) * f64::from(which.count_ones())).sum();
+        assert!((shown - coils.engaged_s).abs() < 1e-9, "{text}: {shown} and {}", coils.engaged_s);
+    }
+}

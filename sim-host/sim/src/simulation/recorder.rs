@@ -6,7 +6,7 @@ use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
-use sprag_shared::motion::state::BlockState;
+use sprag_shared::motion::state::{BlockState, Phase};
 use sprag_shared::observers::counted_swing::{CountedSwing, clutches};
 use sprag_shared::structure::block::GRAVITY;
 
@@ -31,6 +31,8 @@ pub struct Recorder<'a> {
     force_scale: f64,
     stays_engaged: bool,
     carried: bool,
+    /// What was last seen engaged on a block that stands, as [`Sample::engaged`]; 0 while it moves, and where its weight alone holds it.
+    holding: u8,
     swing: CountedSwing,
     /// As [`Sample::engaged`], of what counts.
     engaged: u8,
@@ -56,6 +58,7 @@ impl<'a> Recorder<'a> {
             force_scale,
             stays_engaged,
             carried: false,
+            holding: 0,
             swing: CountedSwing::default(),
             engaged: 0,
             interval,
@@ -85,9 +88,7 @@ impl<'a> Recorder<'a> {
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
     pub fn finish(&mut self, end: f64, at_rest: bool) {
         if at_rest && !self.carried {
-            self.stand_until(end);
-            let sample = self.standing(end);
-            self.push(sample);
+            self.stand_to(end);
         } else {
             self.flush();
         }
@@ -125,7 +126,7 @@ impl<'a> Recorder<'a> {
             velocity_rad_s: 0.0,
             acceleration_rad_s2: 0.0,
             force_ratio: [0.0; 2],
-            engaged: u8::from(self.stays_engaged),
+            engaged: u8::from(self.stays_engaged) | self.holding,
             displacement_m: self.displacement,
         }
     }
@@ -161,6 +162,13 @@ impl<'a> Recorder<'a> {
             self.next += 1;
         }
     }
+
+    /// The same, and one at `time`.
+    fn stand_to(&mut self, time: f64) {
+        self.stand_until(time);
+        let sample = self.standing(time);
+        self.push(sample);
+    }
 }
 
 impl<S: Real> Observer<S> for Recorder<'_> {
@@ -190,9 +198,17 @@ impl<S: Real> Observer<S> for Recorder<'_> {
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        if self.carried && interval.to > interval.from {
-            self.device_interval(output, interval);
+        let holds = self.holding != 0 || (interval.engaged && !self.stays_engaged);
+        if interval.to <= interval.from || !(self.carried || holds) {
+            return;
         }
+        if !self.carried && self.holding == 0 {
+            // Its weight has held it until now.
+            self.stand_to(self.origin + (interval.start + interval.from).to_f64());
+            self.broken = true;
+        }
+        self.device_interval(output, interval);
+        self.holding = self.pending.filter(|_| !self.carried).map_or(0, |last| last.engaged);
     }
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
@@ -206,9 +222,23 @@ impl<S: Real> Observer<S> for Recorder<'_> {
         match event {
             Event::Uplift | Event::Rest if self.carried => self.broken = true,
             Event::Uplift => {
-                self.stand_until(at);
-                let sample = self.standing(at);
-                self.push(sample);
+                // What clutches hold has been seen up to here.
+                if self.holding == 0 {
+                    self.stand_to(at);
+                } else {
+                    self.stand_until(at);
+                }
+                (self.holding, self.broken) = (0, true);
+            }
+            // Clutches hold it where it has fallen.
+            Event::Rest if state.phase == Phase::Rocking => {
+                self.holding = self.samples.last().map_or(0, |last| last.engaged);
+                self.broken = true;
+            }
+            // Its weight holds it again, and they open.
+            Event::Switch if self.holding != 0 && state.phase == Phase::Rest => {
+                self.holding = 0;
+                self.stand_to(at);
                 self.broken = true;
             }
             Event::Rest => {
