@@ -4,7 +4,10 @@ use sprag_shared::math;
 use sprag_shared::observers::outcome::Outcome;
 use sprag_shared::structure::block::{GRAVITY, RECTANGLE_INERTIA_RATIO};
 
-use super::{DeviceRun, runs_of};
+use super::{DeviceRun, runs_of, simulate};
+use crate::interrupt::Interrupt;
+use crate::scene::Scene;
+use crate::side_by_side::{Shaking, Subject, followed};
 
 const SLENDERNESS_DEG: f64 = 15.0;
 
@@ -299,5 +302,19 @@ fn a_history_shows_what_coils_take_of_a_standing_block_too() {
         let engagements = run.history.engagements();
         let shown: f64 = engagements.iter().map(|(start, end, which)| (end - start) * f64::from(which.count_ones())).sum();
         assert!((shown - coils.engaged_s).abs() < 1e-9, "{text}: {shown} and {}", coils.engaged_s);
+    }
+}
+
+/// m (ü_g − g tan α) over mg.
+#[test]
+fn lanes_see_the_force_of_clutches_that_hold_a_standing_block() {
+    let scene = Scene::parse(&held_down(""), "scene").unwrap();
+    let ground = scene.ground_motions().unwrap();
+    let run = simulate(&scene, &ground, &Interrupt::default()).unwrap().remove(0);
+    let subject = Subject::watched(scene);
+    let lanes = followed(&[(&subject, Shaking::Any(&ground))]).remove(0).expect("lanes take it").demand.unwrap();
+    let needed = 0.1 * math::tan(SLENDERNESS_DEG.to_radians());
+    for force in [lanes.force_ratio, run.peak_force_ratio.unwrap()] {
+        assert!((force / needed - 1.0).abs() < 1e-6, "{force} and {needed}");
     }
 }

@@ -13,7 +13,7 @@ pub struct Response {
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak_rotation: Option<f64>,
-    /// max |F|/(mg) of the device on its support, until the end of the run or overturning; 0 where the block never rocks.
+    /// max |F|/(mg) of the device on its support, until the end of the run or overturning; 0 where its clutches never bear any.
     pub force_ratio: f64,
     /// Farthest travel of the terminals to one side until then, m.
     pub stroke_m: f64,
