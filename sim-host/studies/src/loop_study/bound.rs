@@ -160,7 +160,7 @@ pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     let mut report = Report::new("bound", "What a clutch law can do at best");
     report.paragraph(&format!(
         "Motions: pulses of {} families with ω/p {} to {} and peaks of {} to {} uplift thresholds g tan α{}. R = 2 m, α = \
-         {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85. Made by `sprag loop-study bound`.",
+         {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85.",
         Family::ALL.len(),
         FREQUENCIES.0,
         FREQUENCIES.1,

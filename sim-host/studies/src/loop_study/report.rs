@@ -17,9 +17,11 @@ pub struct Report {
 }
 
 impl Report {
-    /// With a heading.
+    /// With a heading, and the command that makes it again.
     pub fn new(name: &str, heading: &str) -> Report {
-        Report { name: name.to_owned(), page: Page::new(heading), ..Report::default() }
+        let mut page = Page::new(heading);
+        page.paragraph(&format!("Made by `sprag loop-study {name}`."));
+        Report { name: name.to_owned(), page, ..Report::default() }
     }
 
     /// Adds a paragraph.
@@ -42,5 +44,18 @@ impl Report {
     pub fn figure(&mut self, name: &str, caption: &str, svg: String) {
         self.page.picture(&format!("{name}.svg"), caption);
         self.figures.push((name.to_owned(), svg));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_names_the_command_that_makes_it() {
+        assert_eq!(
+            Report::new("practice", "In practice").page.markdown(),
+            "# In practice\n\nMade by `sprag loop-study practice`.\n"
+        );
     }
 }

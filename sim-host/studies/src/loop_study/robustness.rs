@@ -139,7 +139,7 @@ pub fn robustness(records: &[Motion], progress: &Progress, conditions: &Conditio
     report.paragraph(&format!(
         "Motions: {} one-cycle sine and cosine pulses (ω/p 1 to 6, peaks of 1.5 to 5.2 uplift thresholds){}.\n\nPeak rotation against the ideal pair, R = 2 m, α = 10°, σ = 0.5, η = 0.85: model-aided \
          estimator, Eq. 10 predicted, 2 kHz, 1 ms, ADIS16470, but for the one thing that is swept. Changes among motions in which both keep \
-         the block standing and the ideal pair rocks by {ROCKS} α or more; faults among blocks that stand. Made by `sprag loop-study robustness`.",
+         the block standing and the ideal pair rocks by {ROCKS} α or more; faults among blocks that stand.",
         pulses.len(),
         and_records(recorded.len(), &format!(" scaled to peaks of {thresholds} thresholds by turns"))
     ));

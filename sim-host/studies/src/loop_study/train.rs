@@ -273,7 +273,7 @@ pub fn train(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     report.paragraph(&format!(
         "Cross-entropy method with full-state feedback: {SEARCHES} searches of {GENERATIONS} generations of {POPULATION} laws. R = 2 m, α = {}°, σ = 0.5, \
          η = 0.85; rigid clutches of {}. Motions: {PULSES} random pulses of each of {} families{}. Every other motion trains; the others choose \
-         among the searches. Made by `sprag loop-study train`.",
+         among the searches.",
         Setting::base().slenderness_deg,
         CLUTCHES.map(|(delay, braked)| format!("{delay} ms {}", if braked { "braked" } else { "coasting" })).join(", "),
         Family::ALL.len(),
