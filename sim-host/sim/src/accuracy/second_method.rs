@@ -2,7 +2,8 @@
 //!
 //! Runs of one method may share a fault: then they agree, and their difference says nothing. So a result is looked at by a fixed-step
 //! method as well, at a step and at half of it. What separates the result from the second run should be less than what separates the two;
-//! where it is more, the step is halved again: an error of the steps shrinks with them, a fault of the result stays.
+//! where it is more, or the outcome of one is another, the step is halved again: an error of the steps shrinks with them, a fault of the
+//! result stays.
 
 use super::answer::{Answer, Comparable};
 use super::estimate::Compared;
@@ -34,20 +35,23 @@ impl<R: Comparable> Answer<R> {
         let found = self.result.compared();
         let error = &mut self.error;
         let mut factor = 1.0;
+        let mut alike = true;
         let Some(mut coarse) = run(factor)? else { return Ok(()) };
         for _ in 1..MOST_RUNS {
             factor *= 0.5;
             let Some(fine) = run(factor)? else { return Ok(()) };
-            let agreed = agrees(found.peak_rotation, error.peak_rotation, coarse.peak_rotation, fine.peak_rotation)
+            alike = [&coarse, &fine].iter().all(|run| run.outcome == found.outcome);
+            let agreed = alike
+                && agrees(found.peak_rotation, error.peak_rotation, coarse.peak_rotation, fine.peak_rotation)
                 && agrees(found.peak_acceleration, error.peak_acceleration, coarse.peak_acceleration, fine.peak_acceleration)
-                && agrees(found.first_impact_time, error.first_impact_time, coarse.first_impact_time, fine.first_impact_time)
-                && (found.outcome == fine.outcome || coarse.outcome != fine.outcome);
+                && agrees(found.first_impact_time, error.first_impact_time, coarse.first_impact_time, fine.first_impact_time);
             if agreed {
                 return Ok(());
             }
             coarse = fine;
         }
         error.widen(&found, &coarse);
+        error.outcome_certain &= alike;
         self.as_wanted &= accuracy.wanted().is_none_or(|wanted| error.relative(found.peak_rotation) <= wanted);
         Ok(())
     }
@@ -108,6 +112,9 @@ mod tests {
     fn another_ending_is_a_doubt() {
         assert!(!confirmed(0.9999, |_| 1.0001).error.outcome_certain);
         assert!(confirmed(0.9999, |factor| 0.9999 + 1e-3 * math::pow(factor, 4.0)).error.outcome_certain);
+        // A motion that is so sensitive that each step has its own ending.
+        let turns = |factor: f64| if factor == 0.5 || factor == 0.125 { 0.9998 } else { 1.0001 };
+        assert!(!confirmed(0.9999, turns).error.outcome_certain);
     }
 
     #[test]
