@@ -33,6 +33,11 @@ pub struct Compared<O> {
 }
 
 impl<O: PartialEq> Compared<O> {
+    /// Its numbers, in the order of [`ErrorEstimate::errors`].
+    pub(super) fn numbers(&self) -> [Option<f64>; 3] {
+        [self.peak_rotation, self.peak_acceleration, self.first_impact_time]
+    }
+
     /// The same outcome, and an impact in both or in neither.
     fn ends_like(&self, other: &Compared<O>) -> bool {
         self.outcome == other.outcome && self.first_impact_time.is_some() == other.first_impact_time.is_some()
@@ -86,25 +91,39 @@ impl ErrorEstimate {
         }
     }
 
+    /// The errors of [`Compared::numbers`].
+    pub(super) fn errors(&mut self) -> [&mut f64; 3] {
+        [&mut self.peak_rotation, &mut self.peak_acceleration, &mut self.first_impact_time]
+    }
+
     /// Takes the errors `factor` times as large.
     pub fn enlarge(&mut self, factor: f64) {
-        for error in [&mut self.peak_rotation, &mut self.peak_acceleration, &mut self.first_impact_time] {
+        for error in self.errors() {
             *error *= factor;
         }
     }
 
-    /// Takes the errors so large that they reach from `found` to `other`, which a method of another kind found.
-    pub fn widen<O: PartialEq>(&mut self, found: &Compared<O>, other: &Compared<O>) {
+    /// Takes the errors of the numbers that are `apart` so large that they reach from `found` to `other`, which a method of another kind
+    /// found.
+    pub fn widen<O: PartialEq>(&mut self, found: &Compared<O>, other: &Compared<O>, apart: [bool; 3]) {
         let (factor, _) = Checks::Closer(0.0).margins();
-        let reach = |error: &mut f64, value: fn(&Compared<O>) -> Option<f64>| {
-            if let (Some(own), Some(other)) = (value(found), value(other)) {
+        let pairs = found.numbers().into_iter().zip(other.numbers());
+        for ((error, pair), apart) in self.errors().into_iter().zip(pairs).zip(apart) {
+            if let (true, (Some(own), Some(other))) = (apart, pair) {
                 *error = error.max(factor * (own - other).abs());
             }
-        };
-        reach(&mut self.peak_rotation, |of| of.peak_rotation);
-        reach(&mut self.peak_acceleration, |of| of.peak_acceleration);
-        reach(&mut self.first_impact_time, |of| of.first_impact_time);
+        }
         self.outcome_certain &= found.ends_like(other);
+    }
+
+    /// What two looks by other methods leave: of each number the closer one's error, and an outcome of which both are certain.
+    pub(super) fn closer(self, other: ErrorEstimate) -> ErrorEstimate {
+        ErrorEstimate {
+            outcome_certain: self.outcome_certain && other.outcome_certain,
+            peak_rotation: self.peak_rotation.min(other.peak_rotation),
+            peak_acceleration: self.peak_acceleration.min(other.peak_acceleration),
+            first_impact_time: self.first_impact_time.min(other.first_impact_time),
+        }
     }
 
     /// The relative error of the peak rotation `peak`; infinite where the outcome itself is in doubt, 0 where no peak has an error.
@@ -163,7 +182,7 @@ mod tests {
         assert!(!estimate.outcome_certain);
         let mut estimate = ErrorEstimate::of(&hit(Some(2.0)), &[hit(Some(2.0))], Checks::AsClose);
         assert!(estimate.outcome_certain);
-        estimate.widen(&hit(Some(2.0)), &hit(None));
+        estimate.widen(&hit(Some(2.0)), &hit(None), [true; 3]);
         assert!(!estimate.outcome_certain);
     }
 

@@ -3,14 +3,18 @@
 //! Runs of one method may share a fault: then they agree, and their difference says nothing. So a result is looked at by a fixed-step
 //! method as well, at a step and at half of it. What separates the result from the second run should be less than what separates the two;
 //! where it is more, or the outcome of one is another, the step is halved again: an error of the steps shrinks with them, a fault of the
-//! result stays.
+//! result stays. Each number is looked at by itself: fixed steps find peaks of the rotation far closer than those of the acceleration,
+//! which they see at their ends alone.
 
 use super::answer::{Answer, Comparable};
-use super::estimate::Compared;
+use super::estimate::{Compared, ErrorEstimate};
 use super::level::Accuracy;
 
-/// Most runs by the second method.
+/// Most runs by a method that differ.
 const MOST_RUNS: usize = 5;
+
+/// The smallest factor of its step, for steps that the samples of a record shorten: half of them is the same run again.
+const SMALLEST_FACTOR: f64 = 1.0 / 64.0;
 
 /// Relative differences that rounding alone may make between two methods.
 const ROUNDING: f64 = 1e-11;
@@ -21,38 +25,63 @@ fn agrees(value: Option<f64>, error: f64, coarse: Option<f64>, fine: Option<f64>
     (value - fine).abs() <= (coarse - fine).abs() + error + ROUNDING * value.abs()
 }
 
+/// `error` of `found` after a look by `run`: larger for those numbers to which that method does not come closer. None where it cannot follow
+/// the motion.
+fn looked_at<O: PartialEq, F>(
+    mut error: ErrorEstimate,
+    found: &Compared<O>,
+    mut run: impl FnMut(f64) -> Result<Option<Compared<O>>, F>,
+) -> Result<Option<ErrorEstimate>, F> {
+    let (mut factor, mut runs) = (1.0, 1);
+    let (mut alike, mut apart) = (true, [true; 3]);
+    let Some(mut coarse) = run(factor)? else { return Ok(None) };
+    while runs < MOST_RUNS && factor > SMALLEST_FACTOR {
+        factor *= 0.5;
+        let Some(fine) = run(factor)? else { return Ok(None) };
+        let (own, errors) = (found.numbers(), error.errors().map(|error| *error));
+        let (before, after) = (coarse.numbers(), fine.numbers());
+        apart = core::array::from_fn(|i| !agrees(own[i], errors[i], before[i], after[i]));
+        alike = [&coarse, &fine].iter().all(|run| run.outcome == found.outcome);
+        if alike && apart == [false; 3] {
+            return Ok(Some(error));
+        }
+        runs += usize::from(fine != coarse);
+        coarse = fine;
+    }
+    error.widen(found, &coarse, apart);
+    error.outcome_certain &= alike;
+    Ok(Some(error))
+}
+
 impl<R: Comparable> Answer<R> {
-    /// Compares the result with `run`, the same motion by another method at its step times the given factor, and takes the errors larger
-    /// where that method does not come closer. `run` gives none where it cannot follow the motion.
+    /// Compares the result with `run`, the same motion by one of other `methods` at its step times the given factor, and takes the errors of
+    /// those numbers larger to which that does not come closer. The next method looks where the one before does not confirm what `accuracy`
+    /// asks for: then the closer one counts. `run` gives none where a method cannot follow the motion.
     ///
     /// # Errors
     /// The errors of `run`.
-    pub fn confirm<F>(
+    pub fn confirm<M: Copy, F>(
         &mut self,
         accuracy: Accuracy,
-        mut run: impl FnMut(f64) -> Result<Option<Compared<R::Outcome>>, F>,
+        methods: &[M],
+        mut run: impl FnMut(M, f64) -> Result<Option<Compared<R::Outcome>>, F>,
     ) -> Result<(), F> {
         let found = self.result.compared();
-        let error = &mut self.error;
-        let mut factor = 1.0;
-        let mut alike = true;
-        let Some(mut coarse) = run(factor)? else { return Ok(()) };
-        for _ in 1..MOST_RUNS {
-            factor *= 0.5;
-            let Some(fine) = run(factor)? else { return Ok(()) };
-            alike = [&coarse, &fine].iter().all(|run| run.outcome == found.outcome);
-            let agreed = alike
-                && agrees(found.peak_rotation, error.peak_rotation, coarse.peak_rotation, fine.peak_rotation)
-                && agrees(found.peak_acceleration, error.peak_acceleration, coarse.peak_acceleration, fine.peak_acceleration)
-                && agrees(found.first_impact_time, error.first_impact_time, coarse.first_impact_time, fine.first_impact_time);
-            if agreed {
-                return Ok(());
+        let as_wanted =
+            |error: &ErrorEstimate| accuracy.wanted().is_none_or(|wanted| error.relative(found.peak_rotation) <= wanted);
+        let mut confirmed: Option<ErrorEstimate> = None;
+        for &method in methods {
+            let Some(error) = looked_at(self.error, &found, |factor| run(method, factor))? else { break };
+            let closer = confirmed.map_or(error, |before| before.closer(error));
+            confirmed = Some(closer);
+            if as_wanted(&closer) {
+                break;
             }
-            coarse = fine;
         }
-        error.widen(&found, &coarse);
-        error.outcome_certain &= alike;
-        self.as_wanted &= accuracy.wanted().is_none_or(|wanted| error.relative(found.peak_rotation) <= wanted);
+        if let Some(error) = confirmed {
+            self.error = error;
+            self.as_wanted &= as_wanted(&error);
+        }
         Ok(())
     }
 }
@@ -62,7 +91,7 @@ mod tests {
     use sprag_shared::math;
 
     use super::*;
-    use crate::accuracy::{Closeness, ErrorEstimate};
+    use crate::accuracy::Closeness;
 
     /// A result whose outcome is whether its peak is above 1.
     struct Peak(f64);
@@ -79,14 +108,18 @@ mod tests {
         }
     }
 
-    /// An answer of `peak` that claims to be good to rounding, after a look by a method that finds `other` of a step.
-    fn confirmed(peak: f64, mut other: impl FnMut(f64) -> f64) -> Answer<Peak> {
+    /// An answer of `peak` that claims to be good to rounding, after a look by two methods, of which `other` has what they find of a step.
+    fn seen(peak: f64, mut other: impl FnMut(u8, f64) -> Compared<bool>) -> Answer<Peak> {
         let error =
             ErrorEstimate { outcome_certain: true, peak_rotation: 7e-14, peak_acceleration: 2e-13, first_impact_time: 0.0 };
         let closeness = Closeness { tolerance: 1e-15 };
         let mut answer = Answer { result: Peak(peak), error, closeness, as_wanted: true };
-        answer.confirm::<()>(Accuracy::Error(1e-9), |factor| Ok(Some(compared(other(factor))))).unwrap();
+        answer.confirm::<_, ()>(Accuracy::Error(1e-9), &[1, 2], |method, factor| Ok(Some(other(method, factor)))).unwrap();
         answer
+    }
+
+    fn confirmed(peak: f64, mut other: impl FnMut(f64) -> f64) -> Answer<Peak> {
+        seen(peak, |_, factor| compared(other(factor)))
     }
 
     #[test]
@@ -118,9 +151,34 @@ mod tests {
     }
 
     #[test]
+    fn a_peak_that_steps_pass_over_leaves_the_others_their_errors() {
+        let answer =
+            seen(0.5, |_, factor| Compared { peak_acceleration: Some(0.99), ..compared(0.5 + 1e-3 * math::pow(factor, 4.0)) });
+        assert!(answer.error.peak_acceleration >= 0.01, "{:?}", answer.error);
+        assert!(answer.error.peak_rotation == 7e-14 && answer.as_wanted, "{:?}", answer.error);
+    }
+
+    #[test]
     fn a_method_that_cannot_follow_says_nothing() {
         let mut answer = confirmed(0.5, |_| 0.5);
-        answer.confirm::<()>(Accuracy::Tight, |_| Ok(None)).unwrap();
+        answer.confirm::<_, ()>(Accuracy::Tight, &[1, 2], |_, _| Ok(None)).unwrap();
         assert!(answer.error.peak_rotation == 7e-14);
+    }
+
+    /// A clutch with backlash, of which the first method is coarse.
+    #[test]
+    fn the_closer_of_two_methods_counts() {
+        let error =
+            |method: u8, factor: f64| if method == 1 { 1e-3 * math::pow(factor, 0.1) } else { 1e-6 * math::pow(factor, 4.0) };
+        let answer = seen(0.5, |method, factor| compared(0.5 + error(method, factor)));
+        assert!(answer.error.peak_rotation == 7e-14 && answer.as_wanted, "{:?}", answer.error);
+        let answer = seen(0.5, |method, factor| compared(0.5 + 1e-5 / f64::from(method) + error(2, factor)));
+        assert!((answer.error.peak_rotation / 7.5e-6 - 1.0).abs() < 1e-3 && !answer.as_wanted, "{:?}", answer.error);
+    }
+
+    #[test]
+    fn steps_that_samples_shorten_are_halved_until_they_differ() {
+        let answer = confirmed(0.5, |factor: f64| 0.5 + 1e-5 * math::pow(factor.min(1.0 / 16.0), 4.0));
+        assert!(answer.error.peak_rotation == 7e-14 && answer.as_wanted, "{:?}", answer.error);
     }
 }
