@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Output};
 
 use super::studies::on_any_threads;
-use super::{CASE_TITLES, command, refused, said, scene, sprag, summary, well};
+use super::{command, refused, said, scene, sprag, summary, well};
 
 #[test]
 fn simulate_writes_its_three_files_and_a_summary() {
@@ -88,32 +88,6 @@ fn the_same_scene_gives_the_same_bytes() {
     for file in ["summary.json", "history.csv", "history.svg"] {
         assert!(fs::read(outs[0].join(file)).unwrap() == fs::read(outs[1].join(file)).unwrap(), "{file}");
     }
-}
-
-#[test]
-fn batch_results_do_not_depend_on_the_number_of_threads_and_keep_their_order() {
-    let folder = tempfile::tempdir().unwrap();
-    let cases = folder.path().join("cases.csv");
-    let mut text = CASE_TITLES.to_owned();
-    for index in 0..1000 {
-        let device = ["none", "inerter", "clutched-pair"][index % 3];
-        let geometry = ["full", "slender"][index % 2];
-        text += &format!(
-            "c{},{geometry},15,{device},0.5,0.85,sine,{},{},60\n",
-            999 - index,
-            1.0 + index as f64 * 0.005,
-            1.5 + (index % 7) as f64
-        );
-    }
-    fs::write(&cases, text).unwrap();
-    let results = ["1", "2", "7"].map(|threads| {
-        let out = folder.path().join(format!("{threads}.csv"));
-        well(sprag(&["batch", cases.to_str().unwrap(), "--out", out.to_str().unwrap(), "--threads", threads]));
-        fs::read_to_string(out).unwrap()
-    });
-    assert!(results[0] == results[1] && results[1] == results[2]);
-    let ids: Vec<&str> = results[0].lines().skip(1).map(|line| line.split(',').next().unwrap()).collect();
-    assert_eq!((ids.len(), ids[0], ids[999]), (1000, "c999", "c0"));
 }
 
 #[cfg(target_os = "linux")]
