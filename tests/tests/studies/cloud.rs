@@ -2,16 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use sprag_report::columns::{Table, write_csv};
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::simulation::RunError;
-use sprag_studies::cloud::figures::{demand_picture, fragility_picture};
+use sprag_studies::cloud::figures::fragility_picture;
 use sprag_studies::cloud::findings::Findings;
-use sprag_studies::cloud::pages::{demand_page, fragility_page, ranking_page};
+use sprag_studies::cloud::pages::fragility_page;
 use sprag_studies::cloud::records::StudyRecords;
 use sprag_studies::cloud::runs::Runs;
 use sprag_studies::cloud::study::Study;
-use sprag_studies::cloud::typed_tables::{demand_table, fragility_table, ranking_table, runs_table};
 use sprag_studies::statistics::Fragility;
 use sprag_tests::pulse_records::sine_pulses;
 
@@ -25,36 +23,6 @@ pub fn run(study: &Study) -> (StudyRecords, Runs, Findings) {
     let runs = Runs::of(study, &records.records, &Interrupt::default(), |_| (), &|| ()).unwrap();
     let findings = Findings::of(study, &runs, &Interrupt::default()).unwrap();
     (records, runs, findings)
-}
-
-/// Everything that a study writes.
-fn written(study: &Study, (records, runs, findings): &(StudyRecords, Runs, Findings)) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let runs = runs_table(study, &records.records, &runs.all);
-    let tables: [&dyn Table; 4] = [&runs, &demand_table(findings), &fragility_table(findings), &ranking_table(findings)];
-    for table in tables {
-        write_csv(table, &mut bytes).unwrap();
-    }
-    for page in [demand_page, fragility_page, ranking_page] {
-        bytes.extend(page(study, findings).unwrap().into_bytes());
-    }
-    for picture in [demand_picture(study, findings).unwrap(), fragility_picture(study, findings).unwrap()] {
-        bytes.extend(picture.unwrap_or_default().into_bytes());
-    }
-    bytes
-}
-
-#[test]
-fn results_have_the_same_bytes_for_every_number_of_threads() {
-    let folder = sine_pulses(&[0.15, 0.3, 0.45, 0.6], &[0.5, 0.9, 1.4]);
-    let text = "scale = [1.0, 1.7]\n[[structure]]\nname = 'small'\nset = { 'block.size_m' = 1.0 }\n[bootstrap]\nresamples = 100";
-    let study = study(text, folder.path());
-    let by = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| written(&study, &run(&study)))
-    };
-    let one = by(1);
-    assert!(one.len() > 10_000 && one == by(3));
 }
 
 #[test]

@@ -23,7 +23,7 @@ use sprag_studies::optimise::response::Response;
 use sprag_studies::optimise::specimen::NOMINAL;
 use sprag_studies::optimise::subject::Subject as OneDesign;
 use sprag_studies::optimise::tried::{MOST_ROWS, Tried, TriedError};
-use sprag_studies::optimise::typed_tables::{design_table, motion_table};
+use sprag_studies::optimise::typed_tables::design_table;
 use sprag_studies::statistics::quantile;
 use sprag_tests::pulse_records::sine_pulses;
 use sprag_tests::scene_text::runs;
@@ -225,31 +225,6 @@ fn a_tighter_limit_never_overturns_less() {
 }
 
 #[test]
-fn results_have_the_same_bytes_for_every_number_of_threads() {
-    let folder = pulses();
-    let study = study("largest_force_ratio = 0.2\nlargest_stroke_m = 0.3", folder.path());
-    let by = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| {
-            answered(&study, |problem, solution, findings| {
-                let mut bytes = Vec::new();
-                write_csv(&design_table(findings), &mut bytes).unwrap();
-                let chosen = findings.best.as_ref();
-                write_csv(&motion_table(problem, solution, chosen), &mut bytes).unwrap();
-                bytes.extend(page(problem, findings).unwrap().into_bytes());
-                bytes.extend(choice_page(problem, findings).unwrap().into_bytes());
-                bytes.extend(choice_picture(problem, findings).unwrap().unwrap().into_bytes());
-                bytes.extend(choice_table(findings).unwrap().markdown().into_bytes());
-                bytes.extend(trade_off_picture(problem, findings).unwrap().into_bytes());
-                bytes
-            })
-        })
-    };
-    let one = by(1);
-    assert!(one.len() > 10_000 && one == by(3));
-}
-
-#[test]
 fn no_design_within_the_limits_is_said_with_the_nearest() {
     let folder = pulses();
     answered(&study("largest_force_ratio = 0.001", folder.path()), |problem, _, findings| {
@@ -275,17 +250,6 @@ fn without_overturning_the_choice_is_by_rotation() {
         assert_eq!(best.median_peak_rotation, Some(least));
         assert!(best.median_peak_rotation < findings.reference.median_peak_rotation);
     });
-}
-
-#[test]
-fn an_interrupted_search_has_no_results() {
-    let folder = sine_pulses(&[0.4], &[0.5, 1.0]);
-    let study = study("", folder.path());
-    let records = StudyRecords::read(&study).unwrap();
-    let problem = Problem::new(Choices::of(&study).unwrap(), &records.records);
-    let interrupt = Interrupt::default();
-    let stopped = problem.solve(&mut (), &interrupt, &|_| (), &|_| interrupt.set());
-    assert!(matches!(stopped, Err(RunError::Interrupted)));
 }
 
 /// Interrupted twice and resumed, a search makes no run again that it counted as done, and comes to the same.
