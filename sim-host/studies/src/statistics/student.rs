@@ -2,18 +2,10 @@
 
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
-use sprag_shared::math::{atan, cos, sin, square_root, tan};
+use sprag_shared::math::{cos, sin, square_root, tan};
 
-/// The probability A(t|ν) that |T| ≤ t for `freedom` ν ≥ 1 and t ≥ 0, by its finite sum in cos θ with θ = arctan(t/√ν)
-/// (Abramowitz and Stegun 26.7.3 and 26.7.4). NaN without freedom or for a negative t.
-pub fn central_probability(t: f64, freedom: u32) -> f64 {
-    if freedom == 0 || t.is_nan() || t < 0.0 {
-        return f64::NAN;
-    }
-    sum(atan(t / square_root(f64::from(freedom))), freedom).probability
-}
-
-/// The t with A(t|ν) = `probability`, from 0 up to, not including, 1, for `freedom` ν ≥ 1; NaN outside. The half-width, in
+/// The t with A(t|ν) = `probability`, from 0 up to, not including, 1, for `freedom` ν ≥ 1; NaN outside. A(t|ν), the probability
+/// that |T| ≤ t, is a finite sum in cos θ with θ = arctan(t/√ν) (Abramowitz and Stegun 26.7.3 and 26.7.4). t is the half-width, in
 /// standard errors, of the band that holds with that probability. Relative error below 1e-13 where A is not within 1e-3 of 1,
 /// and below 2e-16/(1 − A) beyond.
 ///
@@ -141,13 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn probability_undoes_the_quantile_and_nears_the_normal_one() {
-        for freedom in [1, 2, 3, 4, 7, 8, 101, 1000] {
-            for probability in [0.0, 1e-6, 0.5, 0.95, 0.9999] {
-                let t = central_quantile(probability, freedom);
-                assert!((central_probability(t, freedom) - probability).abs() < 1e-15 * f64::from(freedom.max(4)));
-            }
-        }
+    fn many_degrees_of_freedom_near_the_normal_distribution() {
         // Next term of the expansion in 1/ν: z + (z³ + z)/(4ν).
         let z: f64 = 1.959963984540054;
         let expected = z + (z * z * z + z) / 4e6;
@@ -159,7 +145,5 @@ mod tests {
         for (probability, freedom) in [(1.0, 3), (-0.1, 3), (f64::NAN, 3), (0.5, 0)] {
             assert!(central_quantile(probability, freedom).is_nan());
         }
-        assert!(central_probability(-1.0, 3).is_nan() && central_probability(1.0, 0).is_nan());
-        assert!((central_probability(f64::INFINITY, 3) - 1.0).abs() < 1e-15);
     }
 }
