@@ -5,7 +5,7 @@ use sprag_report::band::Band;
 use sprag_shared::math::{exp, ln, square_root};
 
 use super::level::Level;
-use super::normal::{cumulative, ln_cumulative, quantile};
+use super::normal::{cumulative, quantile};
 
 /// Probability of overturning P(IM) = Φ((ln IM − μ)/β), with the μ and β that maximise its likelihood (Thiers-Moggia and
 /// Málaga-Chuquitaype 2019, Eq. 26). The errors are those of large samples.
@@ -37,13 +37,6 @@ impl FragilityCurve {
     /// down to 1e-300.
     pub fn probability(&self, intensity: f64) -> f64 {
         cumulative(self.deviate(intensity))
-    }
-
-    /// Logarithms of the probabilities of overturning and of standing at `intensity` (> 0), exact where one is too small for an
-    /// f64.
-    pub fn ln_probabilities(&self, intensity: f64) -> [f64; 2] {
-        let z = self.deviate(intensity);
-        [ln_cumulative(z), ln_cumulative(-z)]
     }
 
     /// Intensity at which the probability of overturning is `probability`, 0 to 1: 0 at 0, ∞ at 1, NaN outside.
@@ -94,15 +87,6 @@ mod tests {
         assert_eq!((CURVE.probability(0.0), CURVE.probability(f64::INFINITY)), (0.0, 1.0));
         assert_eq!((CURVE.intensity(0.0), CURVE.intensity(1.0)), (0.0, f64::INFINITY));
         assert!(CURVE.probability(-1.0).is_nan() && CURVE.intensity(1.5).is_nan());
-    }
-
-    #[test]
-    fn tails_are_exact_where_the_probability_is_too_small() {
-        // z = ±40: ln Φ(−40) by mpmath.
-        let [over, stand] = CURVE.ln_probabilities(exp(0.5 - 10.0));
-        assert!((over + 804.6084420137538).abs() < 1e-11 && stand == 0.0, "{over} {stand}");
-        let [over, stand] = CURVE.ln_probabilities(exp(0.5 + 10.0));
-        assert!((stand + 804.6084420137538).abs() < 1e-11 && over == 0.0, "{over} {stand}");
     }
 
     #[test]

@@ -18,6 +18,12 @@ fn curve(counts: &[(f64, u32, u32)]) -> FragilityCurve {
     *of(counts).curve().unwrap()
 }
 
+/// Logarithms of the probabilities of overturning and of standing.
+fn ln_probabilities(curve: &FragilityCurve, intensity: f64) -> [f64; 2] {
+    let z = (ln(intensity) - curve.mu) / curve.beta;
+    [z, -z].map(normal::ln_cumulative)
+}
+
 const ORDINARY: [(f64, u32, u32); 5] = [(0.5, 1, 20), (0.8, 4, 20), (1.1, 9, 20), (1.5, 15, 20), (2.0, 19, 20)];
 
 #[test]
@@ -115,7 +121,7 @@ fn the_score_is_zero_and_the_information_is_its_slope() {
         ORDINARY
             .iter()
             .map(|&(intensity, overturned, of)| {
-                let [over, stand] = shifted.ln_probabilities(intensity);
+                let [over, stand] = ln_probabilities(&shifted, intensity);
                 f64::from(overturned) * over + f64::from(of - overturned) * stand
             })
             .sum()
@@ -206,7 +212,7 @@ fn every_data_set_is_estimated_or_has_a_reason() {
         let at = |mu: f64, beta: f64| -> f64 {
             let shifted = FragilityCurve { mu, beta, ..*curve };
             let parts = stripes.all.iter().flat_map(|stripe| {
-                let [over, stand] = shifted.ln_probabilities(stripe.intensity);
+                let [over, stand] = ln_probabilities(&shifted, stripe.intensity);
                 // Not 0·∞.
                 [(stripe.overturned, over), (stripe.stood, stand)]
                     .map(|(count, ln)| if count > 0 { count as f64 * ln } else { 0.0 })
