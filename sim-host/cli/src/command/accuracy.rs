@@ -25,10 +25,8 @@ use crate::board::step_cost::measure;
     The scene must have ideal devices over horizontal ground. Writes accuracy.csv, accuracy.md, summary.json and the pictures work_precision.svg, order.svg, sines.svg, wrong_outcomes.svg and, \
     with --qemu, board.svg; with --png as .png too. Times are of this machine; everything else is the same on any.")]
 pub struct AccuracyCommandArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Cells along each side of the grid of one-cycle pulses that wrong outcomes are counted over, by steps from 1e-3/p on; 0 to 64.
@@ -43,7 +41,6 @@ pub struct AccuracyCommandArguments {
     /// The image for --qemu; it is built by default.
     #[arg(long, value_name = "ELF", requires = "qemu")]
     pub image: Option<PathBuf>,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -37,22 +37,17 @@ use super::thread_arguments::ThreadArguments;
     sprag loop scenes/controller.toml --monte-carlo 200\n\n\
     The scene needs a device of kind clutched-pair; without a [controller] table it has the default controller. Writes summary.json, history.csv and loop.svg; with --monte-carlo also monte_carlo.csv; with --png loop.png.")]
 pub struct LoopArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
     /// Run so many specimens of the sensors, each with noise and errors of its own, and with other impacts where these scatter.
     #[arg(long, value_name = "N", value_parser = super::whole_number(SPECIMENS))]
     pub monte_carlo: Option<NonZeroUsize>,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

@@ -42,19 +42,14 @@ use crate::command::long_run_arguments::LongRunArguments;
     code is 1. Runs go to the disk as they are made, runs.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct CloudArguments {
-    /// The study.
     #[command(flatten)]
     pub input: StudyArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
-    /// Which of the runs, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
 }

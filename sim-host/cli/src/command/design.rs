@@ -36,28 +36,22 @@ use super::thread_arguments::ThreadArguments;
     .parquet), delay.svg (with --png delay.png) where clutches take commands, and summary.json. A record that cannot be read and a run that fails are named, \
     the others are still done, and the exit code is 1.")]
 pub struct DesignArguments {
-    /// The scene; it has block.mass_kg.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Ground motion records and folders of them, each record in the place of the scene's.
     #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
-    /// How records are read.
     #[command(flatten)]
     pub reading: ReadArguments,
     /// Device to design, by its name in tables; may be given more than once. All that have a flywheel without it.
     #[arg(long, value_name = "NAME")]
     pub device: Vec<String>,
-    /// What is assumed.
     #[command(flatten)]
     pub basis: BasisArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs that parts are sized by.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

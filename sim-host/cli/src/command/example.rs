@@ -24,7 +24,6 @@ pub struct ExampleArguments {
     /// Folder for the files; it is made where it is missing.
     #[arg(long, value_name = "DIR", default_value = ".", value_hint = clap::ValueHint::DirPath)]
     pub out: PathBuf,
-    /// What may be replaced.
     #[command(flatten)]
     pub replace: OverwriteArguments,
 }

@@ -21,7 +21,6 @@ const WIDTH: usize = 120;
     sprag explain scenes/figure05.toml --set device.1.kinematics=consistent\n\n\
     Nothing is simulated and no record is read.")]
 pub struct ExplainArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Print effects and equations as JSON instead of text.

@@ -41,22 +41,17 @@ use crate::board::report::{DeviceSummary, costs, device_ticks};
     it ends, the device is detached: a board continues with its own sensors and the settings in its flash. Exit code 1 where a decision is \
     not the host's to the last bit.")]
 pub struct HilArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// How accurate the plant is; found by the host's own loop.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
     /// End with exit code 0 even if the device decided otherwise than the host at some tick.
     #[arg(long)]
     pub allow_different: bool,
-    /// Where the device is.
     #[command(flatten)]
     pub line: LineArguments,
 }

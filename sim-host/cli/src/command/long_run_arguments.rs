@@ -23,7 +23,6 @@ pub struct LongRunArguments {
     /// Only the I-th of N equal parts of the rows, as for array jobs of a cluster; --merge N puts them together.
     #[arg(long, value_name = "I/N", help_heading = "Long runs")]
     pub shard: Option<Shard>,
-    /// Whether some rows are there.
     #[command(flatten)]
     pub rows: ResumeArguments,
     /// Put the N shards in the folder together, to the bytes of a run that was not split.

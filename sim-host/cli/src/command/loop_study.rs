@@ -62,16 +62,12 @@ pub struct LoopStudyArguments {
     /// Recorded ground motions, and folders of them, to study beside the pulses.
     #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
-    /// How records are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

@@ -47,7 +47,6 @@ use crate::command::long_run_arguments::LongRunArguments;
     boundaries. Rows go to the disk as they are made, map.run.json says what they come from, and Ctrl-C leaves them there for \
     --resume.")]
 pub struct MapArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Axis across, in the place of the scene's: any numeric key; with :log in equal factors.
@@ -66,16 +65,12 @@ pub struct MapArguments {
     /// Most blocks that --refine follows for one device; what stays coarser is reported.
     #[arg(long, value_name = "N", requires = "refine", default_value_t = EVALUATIONS, value_parser = super::whole_number(0..=u32::MAX as usize))]
     pub evaluations: usize,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Which of the cells, and whether some are there.
     #[command(flatten)]
     pub long_run: LongRunArguments,
 }

@@ -1,58 +1,58 @@
 //! The subcommands of `sprag`: each has its arguments, which run it ([`context::Run`]).
 
 #[cfg(feature = "effects")]
-pub mod accuracy;
+pub(crate) mod accuracy;
 pub mod accuracy_arguments;
 pub mod batch;
 mod batch_cases;
 mod batch_results;
 #[cfg(feature = "effects")]
-pub mod board;
+pub(crate) mod board;
 #[cfg(feature = "effects")]
 mod board_line;
 #[cfg(feature = "effects")]
 mod board_record;
 #[cfg(feature = "effects")]
-pub mod closed_loop;
-pub mod cloud;
-pub mod completions;
+pub(crate) mod closed_loop;
+pub(crate) mod cloud;
+pub(crate) mod completions;
 pub mod context;
 #[cfg(feature = "effects")]
-pub mod design;
-pub mod divided;
-pub mod effects;
-pub mod example;
-pub mod explain;
+pub(crate) mod design;
+mod divided;
+pub(crate) mod effects;
+pub(crate) mod example;
+pub(crate) mod explain;
 #[cfg(feature = "effects")]
-pub mod hil;
+pub(crate) mod hil;
 mod impact_specimens;
-pub mod long_run_arguments;
+mod long_run_arguments;
 #[cfg(feature = "effects")]
 pub mod loop_scene;
 #[cfg(feature = "effects")]
-pub mod loop_study;
-pub mod manual;
-pub mod map;
+pub(crate) mod loop_study;
+pub(crate) mod manual;
+pub(crate) mod map;
 mod map_boundaries;
-pub mod new;
-pub mod optimise;
+pub(crate) mod new;
+pub(crate) mod optimise;
 pub mod out_arguments;
-pub mod part;
-pub mod plan;
+pub(crate) mod part;
+pub(crate) mod plan;
 mod read_motions;
-pub mod record;
+pub(crate) mod record;
 pub mod record_arguments;
 mod report;
-pub mod scene_arguments;
-pub mod schema;
-pub mod sensitivity;
-pub mod similar;
-pub mod simulate;
+mod scene_arguments;
+pub(crate) mod schema;
+pub(crate) mod sensitivity;
+pub(crate) mod similar;
+pub(crate) mod simulate;
 mod specimens;
-pub mod study_input;
-pub mod synthesize;
+mod study_input;
+pub(crate) mod synthesize;
 pub mod thread_arguments;
-pub mod wrong_line;
+pub(crate) mod wrong_line;
 
 use std::fmt::Display;
 use std::ops::RangeInclusive;

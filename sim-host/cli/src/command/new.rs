@@ -26,7 +26,6 @@ pub struct NewArguments {
     /// The file; scene.toml or study.toml without it.
     #[arg(value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
     pub file: Option<PathBuf>,
-    /// What may be replaced.
     #[command(flatten)]
     pub replace: OverwriteArguments,
 }

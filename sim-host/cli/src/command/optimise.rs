@@ -44,19 +44,14 @@ use crate::command::long_run_arguments::ResumeArguments;
     them there for --resume. The exit code is 1 when no device respects the limits, and when a record cannot be read or \
     a run fails; results are written all the same.")]
 pub struct OptimiseArguments {
-    /// The study.
     #[command(flatten)]
     pub input: StudyArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
-    /// Whether some runs are there.
     #[command(flatten)]
     pub rows: ResumeArguments,
 }

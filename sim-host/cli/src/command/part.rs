@@ -21,7 +21,6 @@ pub struct PartArguments {
     /// Number of the part, from 1.
     #[arg(value_name = "I", value_parser = super::whole_number(1..=MOST_SHARDS))]
     pub part: u32,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
 }

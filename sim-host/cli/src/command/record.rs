@@ -33,7 +33,6 @@ pub struct RecordArguments {
     /// acceleration exceeds g tan(slenderness).
     #[arg(long, value_name = "A", value_parser = super::number(Bounds { low: Some((0.0, false)), high: Some((90.0, false)) }))]
     pub slenderness_deg: Option<f64>,
-    /// What the files do not say.
     #[command(flatten)]
     pub reading: ReadArguments,
 }

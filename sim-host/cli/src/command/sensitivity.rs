@@ -35,7 +35,6 @@ use super::thread_arguments::ThreadArguments;
     Writes sensitivity.csv, sensitivity.md, sensitivity.svg (with --png sensitivity.png) and summary.json. A record that cannot be read and a run that \
     fails are named, the others are still done, and the exit code is 1.")]
 pub struct SensitivityArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Ground motion records and folders of them, each record in the place of the scene's.
@@ -45,16 +44,12 @@ pub struct SensitivityArguments {
     /// horizontal motion.
     #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records_vertical: Vec<PathBuf>,
-    /// How records are read.
     #[command(flatten)]
     pub reading: ReadArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Threads.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
 }

@@ -28,16 +28,13 @@ use super::scene_arguments::SceneArguments;
     Writes summary.json, similar.csv and similar.svg, with --png similar.png too. Groups that are not equal are named: amplitudes and frequencies \
     should be ratios (amplitude_ratio, frequency_ratio).")]
 pub struct SimilarArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
     /// Another block: the scene with these values changed, separated by commas.
     #[arg(long, value_name = "KEY=VALUE,…", required = true)]
     pub with: Vec<String>,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
 }

@@ -38,22 +38,17 @@ use super::thread_arguments::ThreadArguments;
     Writes summary.json, history.csv and history.svg; with output.energy also energy.csv and energy.svg; with --monte-carlo also monte_carlo.csv; with --png the pictures \
     as .png too.")]
 pub struct SimulateArguments {
-    /// The scene.
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Records.
     #[command(flatten)]
     pub records: SceneRecordArguments,
-    /// Where results go.
     #[command(flatten)]
     pub output: OutputArguments,
     /// Run so many specimens of a block whose impacts differ (block.restitution_scatter), with one seed after the other.
     #[arg(long, value_name = "N", value_parser = super::whole_number(SPECIMENS))]
     pub monte_carlo: Option<NonZeroUsize>,
-    /// Threads of these.
     #[command(flatten)]
     pub threads: ThreadArguments,
-    /// Accuracy of the runs.
     #[command(flatten)]
     pub accuracy: AccuracyArguments,
     /// Show the picture.

@@ -23,7 +23,6 @@ pub struct StudyArguments {
     /// Records and folders of them, in the place of the study's.
     #[arg(long, value_name = "PATH", num_args = 1..)]
     pub records: Vec<PathBuf>,
-    /// How they are read.
     #[command(flatten)]
     pub reading: ReadArguments,
     /// Change one value in every structure of the study, such as block.size_m=2 or device.1.mass_ratio=0.5; may be given more than once.

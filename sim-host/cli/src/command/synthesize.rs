@@ -21,7 +21,6 @@ pub struct SynthesizeArguments {
     /// CSV file to write: time (s) and ground acceleration (g).
     #[arg(long, value_name = "FILE.csv")]
     pub out: PathBuf,
-    /// What may be replaced.
     #[command(flatten)]
     pub replace: OverwriteArguments,
     /// Seed of the noise.
