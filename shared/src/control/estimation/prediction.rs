@@ -4,15 +4,9 @@ use super::estimate::Estimate;
 use crate::control::model::Model;
 use crate::equation::any_body::AnyConfiguration;
 
-/// `now` a time `horizon` (s) later, with `engaged` flywheels on the rack until then: one step of Heun's method with the ground's
-/// acceleration carried on along its tangent, and at most one impact. The terminals' acceleration moves by what the model says that it
-/// moves, so that an estimator's own measure of it keeps its offset.
-#[inline]
-pub fn predict(model: &Model, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
-    predict_from(model, &model.configuration(now.side, now.rotation), now, engaged, horizon)
-}
-
-/// [`predict`] where the `configuration` of `now` is known already.
+/// `now`, of a known `configuration`, a time `horizon` (s) later, with `engaged` flywheels on the rack until then: one step of Heun's method
+/// with the ground's acceleration carried on along its tangent, and at most one impact. The terminals' acceleration moves by what the model
+/// says that it moves, so that an estimator's own measure of it keeps its offset.
 #[inline]
 pub fn predict_from(model: &Model, configuration: &AnyConfiguration<f32>, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
     if now.standing || horizon <= 0.0 {
@@ -44,6 +38,10 @@ mod tests {
         let ground = [-0.1, 0.0];
         let push = example_model().push(side, rotation, velocity, ground);
         Estimate { rotation, velocity, side, push, ground, ground_rate: 2.0, ..Estimate::default() }
+    }
+
+    fn predict(model: &Model, now: &Estimate, engaged: u8, horizon: f32) -> Estimate {
+        predict_from(model, &model.configuration(now.side, now.rotation), now, engaged, horizon)
     }
 
     /// Against many small steps of the same equation.

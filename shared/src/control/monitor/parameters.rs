@@ -42,7 +42,7 @@ pub struct EncoderLimits {
 pub struct MonitorParameters {
     /// Default: stale after 3 ms, which is two readings missed and the third due. Stuck is off at rest, where a sensor without
     /// noise is constant, and after 4 ms in motion, where none with fine steps is (for coarse ones,
-    /// [`MonitorParameters::with_noise`]). Full scale 8.7 rad/s (500°/s); saturated after 2 ms, since a velocity has no spikes,
+    /// [`stuck_time`]). Full scale 8.7 rad/s (500°/s); saturated after 2 ms, since a velocity has no spikes,
     /// so that one bad reading passes and two do not.
     pub gyroscope: SensorLimits,
     /// Default: as the gyroscope, but full scale 78 m/s² (just below 8 g) and saturated after 4 ms: impacts last 1 ms to 2 ms, and with 1 ms to the
@@ -123,19 +123,6 @@ impl Default for MonitorParameters {
 }
 
 impl MonitorParameters {
-    /// With the stuck times of sensors whose noise is `noise_in_steps` (see [`stuck_time`]): of gyroscope, block and ground accelerometer.
-    /// For sensors with noise of a known size; the same in motion and at rest.
-    pub fn with_noise(self, noise_in_steps: [f32; 3], reading_period: f32) -> MonitorParameters {
-        let [gyroscope, block, ground] = noise_in_steps.map(|steps| stuck_time(steps, reading_period));
-        let of = |limits, time| SensorLimits { stuck_time: time, stuck_time_moving: time, ..limits };
-        MonitorParameters {
-            gyroscope: of(self.gyroscope, gyroscope),
-            block_accelerometer: of(self.block_accelerometer, block),
-            ground_accelerometer: of(self.ground_accelerometer, ground),
-            ..self
-        }
-    }
-
     /// Whether all is within its range, for a controller with a tick every `period` s.
     pub(in crate::control) fn check(&self, period: f32) -> Result<(), ParameterError> {
         self.gyroscope.check(GYROSCOPE)?;

@@ -36,7 +36,7 @@ fn garbage_is_survived() {
             quiet_time: 0.1,
             recover_after: 0.1,
             self_test_clutches: seed != 4,
-            ..noiseless()
+            ..with_noise(0.0)
         };
         let supervisor = Supervisor::new(&parameters).unwrap();
         let mut state = SupervisorState::default();
@@ -80,12 +80,6 @@ fn garbage_is_survived() {
         }
         assert!(rarely < 2000 || phases.len() >= 4, "{phases:?}");
     }
-}
-
-fn noiseless() -> Parameters {
-    let mut parameters = parameters();
-    parameters.monitor = parameters.monitor.with_noise([0.0; 3], 0.001);
-    parameters
 }
 
 fn still() -> [Reading; 2] {

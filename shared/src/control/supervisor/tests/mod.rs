@@ -1,6 +1,6 @@
 use super::*;
 use crate::control::sensing::sample::Sample;
-use rig::{BIAS, Random, Rig, noisy, parameters};
+use rig::{BIAS, Random, Rig, noisy, parameters, with_noise};
 use std::vec::Vec;
 
 mod faults;

@@ -2,6 +2,7 @@
 
 use super::super::*;
 use crate::control::monitor::coil::CoilReports;
+use crate::control::monitor::stuck_time;
 use crate::control::sensing::sample::{Count, Reading, Sample};
 use std::vec::Vec;
 
@@ -35,8 +36,17 @@ pub fn parameters() -> Parameters {
 
 /// As the default, with noise known to be fine, so that readings that repeat are found at rest too.
 pub fn noisy() -> Parameters {
-    let parameters = parameters();
-    Parameters { monitor: parameters.monitor.with_noise([200.0; 3], 0.001), ..parameters }
+    with_noise(200.0)
+}
+
+/// With the stuck times of sensors whose noise, in steps of a reading, is known.
+pub fn with_noise(in_steps: f32) -> Parameters {
+    let mut parameters = parameters();
+    let (monitor, time) = (&mut parameters.monitor, stuck_time(in_steps, 0.001));
+    for limits in [&mut monitor.gyroscope, &mut monitor.block_accelerometer, &mut monitor.ground_accelerometer] {
+        (limits.stuck_time, limits.stuck_time_moving) = (time, time);
+    }
+    parameters
 }
 
 #[derive(Clone)]
