@@ -88,25 +88,12 @@ fn medians(model: &DemandModel, first: &DemandModel) -> Option<MedianRatio> {
 mod tests {
     use super::*;
     use crate::cloud::measure::Measure;
-    use crate::cloud::runs::Answer;
     use sprag_shared::observers::outcome::Outcome;
 
     fn runs(outcomes: &[(f64, Option<f64>)]) -> Vec<Run> {
-        let run = |(record, &(intensity, peak)): (usize, &(f64, Option<f64>))| Run {
-            structure: 0,
-            record,
-            device: 0,
-            factor: 1.0,
-            level: None,
-            measures: [intensity; Measure::COUNT],
-            answer: Ok(Answer {
-                outcome: if peak.is_some() { Outcome::Safe } else { Outcome::OverturnedAfterImpact },
-                peak_rotation: peak,
-                peak_acceleration: peak,
-                impacts: 0,
-                end_time_s: 0.0,
-                error: None,
-            }),
+        let run = |(record, &(intensity, peak)): (usize, &(f64, Option<f64>))| match peak {
+            Some(peak) => Run::of(record, intensity, Outcome::Safe, peak),
+            None => Run::of(record, intensity, Outcome::OverturnedAfterImpact, 0.0),
         };
         outcomes.iter().enumerate().map(run).collect()
     }

@@ -133,13 +133,9 @@ impl DemandModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::runs::Answer;
 
     fn run(outcome: Outcome, intensity: f64, peak: f64) -> Run {
-        let peak = (!outcome.overturned()).then_some(peak);
-        let answer = Answer { outcome, peak_rotation: peak, peak_acceleration: peak, impacts: 1, end_time_s: 1.0, error: None };
-        let measures = [intensity; Measure::COUNT];
-        Run { structure: 0, record: 0, device: 0, factor: 1.0, level: None, measures, answer: Ok(answer) }
+        Run::of(0, intensity, outcome, peak)
     }
 
     #[test]

@@ -166,26 +166,12 @@ impl DeviceFragility {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::runs::Answer;
     use crate::statistics::Level;
     use sprag_shared::observers::outcome::Outcome;
 
     fn runs(outcomes: &[(f64, bool)]) -> Vec<Run> {
-        let run = |(record, &(intensity, overturned)): (usize, &(f64, bool))| Run {
-            structure: 0,
-            record,
-            device: 0,
-            factor: 1.0,
-            level: None,
-            measures: [intensity; Measure::COUNT],
-            answer: Ok(Answer {
-                outcome: if overturned { Outcome::OverturnedAfterImpact } else { Outcome::NoRocking },
-                peak_rotation: (!overturned).then_some(0.0),
-                peak_acceleration: (!overturned).then_some(0.0),
-                impacts: 0,
-                end_time_s: 0.0,
-                error: None,
-            }),
+        let run = |(record, &(intensity, overturned)): (usize, &(f64, bool))| {
+            Run::of(record, intensity, if overturned { Outcome::OverturnedAfterImpact } else { Outcome::NoRocking }, 0.0)
         };
         outcomes.iter().enumerate().map(run).collect()
     }

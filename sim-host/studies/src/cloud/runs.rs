@@ -61,6 +61,17 @@ impl Run {
     }
 }
 
+#[cfg(test)]
+impl Run {
+    /// One of a structure and a device: every measure is `intensity`, and both peaks of a block that stands are `peak`.
+    pub(super) fn of(record: usize, intensity: f64, outcome: Outcome, peak: f64) -> Run {
+        let peak = (!outcome.overturned()).then_some(peak);
+        let answer = Answer { outcome, peak_rotation: peak, peak_acceleration: peak, impacts: 0, end_time_s: 0.0, error: None };
+        let measures = [intensity; Measure::COUNT];
+        Run { structure: 0, record, device: 0, factor: 1.0, level: None, measures, answer: Ok(answer) }
+    }
+}
+
 /// All runs of a study.
 #[derive(Clone, Debug, Default)]
 pub struct Runs {
