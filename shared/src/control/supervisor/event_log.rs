@@ -99,15 +99,6 @@ impl<const N: usize> Default for EventLog<N> {
     }
 }
 
-impl<'a, const N: usize> IntoIterator for &'a EventLog<N> {
-    type Item = &'a Entry;
-    type IntoIter = Iter<'a, Entry>;
-
-    fn into_iter(self) -> Iter<'a, Entry> {
-        self.iter()
-    }
-}
-
 impl<const N: usize> PartialEq for EventLog<N> {
     fn eq(&self, other: &EventLog<N>) -> bool {
         self.count == other.count && self.iter().eq(other.iter())
@@ -155,7 +146,7 @@ mod tests {
         assert!(first != second);
         second.push(entry(1));
         assert!(first == second);
-        assert_eq!(second.into_iter().count(), 1);
+        assert_eq!(second.iter().count(), 1);
     }
 
     #[test]
