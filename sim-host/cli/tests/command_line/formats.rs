@@ -126,14 +126,6 @@ fn formats_are_those_asked_for() {
 }
 
 #[test]
-fn other_commands_draw_dots_when_asked() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = scene("near_fault");
-    let names = ["history.csv", "history.png", "history.svg", "summary.json"];
-    assert_eq!(written(&["simulate", &scene, "--png"], folder.path()), names);
-}
-
-#[test]
 fn what_the_font_of_pictures_lacks_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let scene = scene("near_fault");

@@ -191,27 +191,6 @@ fn explain_says_what_is_on_why_and_which_equation_results() {
     refused(&["explain", &scene("figure05"), "--set", brake], nowhere.path(), &["figure05.toml", "brake", "ideal clutch"]);
 }
 
-#[test]
-fn every_subcommand_has_help_with_an_example() {
-    for command in [
-        "simulate",
-        "loop",
-        "loop-study",
-        "batch",
-        "cloud",
-        "optimise",
-        "sensitivity",
-        "record",
-        "synthesize",
-        "effects",
-        "explain",
-    ] {
-        let output = sprag(&[command, "--help"]);
-        let help = String::from_utf8(output.stdout).unwrap();
-        assert!(output.status.success() && help.contains("Example"), "{command}: {help}");
-    }
-}
-
 /// Expects that a run succeeds and says `words`.
 fn says(words: &str) -> impl Fn(&Output) {
     move |output: &Output| {
