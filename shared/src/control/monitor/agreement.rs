@@ -116,7 +116,8 @@ const LAST: usize = SLOTS as usize - 1;
 const _: () = assert!(SLOTS.is_power_of_two());
 
 impl AgreementLimits {
-    /// What a window with slots of `length` ticks shows; the gyroscope is known to `rate_tolerance` (counts/s).
+    /// What a window with slots of `length` ticks shows; the gyroscope is known to `rate_tolerance` (counts/s), which is
+    /// infinite where nothing is to be judged.
     #[inline(always)]
     fn judge(&self, window: &Window, rate_tolerance: f32, length: u32) -> Option<Disagreement> {
         let first = (window.newest & LAST) + 1;
@@ -183,7 +184,8 @@ impl Agreement {
         let compared = if scale == 0.0 { 0 } else { change };
         let travel = change.unsigned_abs().min(FARTHEST);
         let news = Slot { expected: speed * limits.period, peak: speed.abs(), counts: compared, travel };
-        let rate_tolerance = rate_tolerance * scale.abs();
+        // What is left of a known lever in the windows has had its own tolerance, which nobody knows any more.
+        let rate_tolerance = if scale == 0.0 { f32::INFINITY } else { rate_tolerance * scale.abs() };
         let ([fast, slow], [fast_length, slow_length]) = (&mut self.windows, limits.slots);
         // Nothing needs to be gathered where a slot is a tick.
         if fast_length <= 1 {
@@ -285,6 +287,23 @@ mod tests {
             agreement.step(&LIMITS, 0.02, 0.0, SCALE, 1_999_000);
             assert_eq!(agreement.found(), None);
         }
+    }
+
+    /// A bias within what is allowed goes on turning beside a count that stays, as of a block that lifts off before it is calibrated.
+    #[test]
+    fn what_was_allowed_by_a_lever_is_no_difference_once_it_is_unknown() {
+        let mut agreement = Agreement::default();
+        for tick in 0..4000_u32 {
+            let known = tick < 1000 || (tick >= 1500 && tick % 7 != 0);
+            agreement.step(&LIMITS, 0.02, 0.018, if known { SCALE } else { 0.0 }, 0);
+            assert_eq!(agreement.found(), None, "{tick}");
+        }
+        // One beyond it is found again.
+        let found = (0..200).any(|_| {
+            agreement.step(&LIMITS, 0.02, 0.06, SCALE, 0);
+            agreement.found() == Some(Disagreement::Standing)
+        });
+        assert!(found);
     }
 
     /// A rack whose lever grows to eight times itself within a second, as that of a low tying point does; and one that does not, though it

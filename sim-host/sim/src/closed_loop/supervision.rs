@@ -356,6 +356,21 @@ mod tests {
         }
     }
 
+    /// Its gyroscope's bias is not known yet, and by its count alone nobody knows where it is.
+    #[test]
+    fn a_block_that_lifts_off_before_it_is_calibrated_has_no_fault() {
+        for (controller, seeds) in [
+            ("prelude_s = 0.0\nlatency_s = 0.001\nsensors = { suite = 'adis16470' }", 1..=4),
+            ("latency_s = 0.001\nsensors = { suite = 'mpu-6050' }", 128..=128),
+        ] {
+            let block = "slenderness_deg = 20.0, restitution = 0.85";
+            let desk = desk_of(block, "", "amplitude_ratio = 3.0, frequency_ratio = 4.0", controller);
+            for seed in seeds {
+                assert_eq!(faults(&desk, seed), 0, "{controller}, seed {seed}");
+            }
+        }
+    }
+
     /// Racks that travel half as far per radian at θ = 0 as at balance.
     #[test]
     fn a_lever_that_changes_over_a_swing_is_no_fault() {
