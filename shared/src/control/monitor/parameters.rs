@@ -78,16 +78,19 @@ pub struct MonitorParameters {
 }
 
 /// The stuck time of a sensor with noise of `noise_in_steps` (standard deviation over resolution) and a reading every `reading_period` s.
-/// Two readings in a row are equal with a chance of 0.28 over the noise in steps; the time is that of as many as happen by chance once in 1e9
-/// readings (11 days at 1 kHz). 5 ms at 1 kHz takes a noise of 30 steps; below half a step nothing can be said, and the check is off.
+/// Two readings in a row are equal with a chance of 0.28 over the noise in steps, and each further one with up to 0.4 over it; the time is
+/// that of as many as happen by chance once in 1e9 readings (11 days at 1 kHz), up to a correlation of 0.44 from one to the next. 5 ms at
+/// 1 kHz takes a noise of 30 steps; below half a step nothing can be said, and the check is off.
 pub fn stuck_time(noise_in_steps: f32, reading_period: f32) -> f32 {
     let repeats = match noise_in_steps {
         steps if steps >= 100.0 => 4.0,
         steps if steps >= 30.0 => 5.0,
-        steps if steps >= 10.0 => 6.0,
-        steps if steps >= 3.0 => 9.0,
-        steps if steps >= 1.0 => 17.0,
-        steps if steps >= 0.5 => 32.0,
+        steps if steps >= 13.0 => 6.0,
+        steps if steps >= 4.2 => 9.0,
+        steps if steps >= 3.0 => 11.0,
+        steps if steps >= 1.4 => 17.0,
+        steps if steps >= 0.8 => 32.0,
+        steps if steps >= 0.5 => 63.0,
         _ => 0.0,
     };
     repeats * reading_period

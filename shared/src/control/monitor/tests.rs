@@ -1,4 +1,5 @@
 use super::*;
+use crate::math;
 
 fn monitor() -> Monitor {
     MonitorParameters::default().resolve(0.0005, 0.2)
@@ -125,4 +126,18 @@ fn the_stuck_time_follows_the_noise() {
     let times = [0.5, 1.0, 3.0, 10.0, 30.0, 100.0, f32::INFINITY].map(|steps| stuck_time(steps, 0.001));
     assert!(times.windows(2).all(|pair| pair[0] >= pair[1]));
     assert!(times[4] < 0.0051 && times[6] > 0.0039);
+}
+
+/// Independent readings of a normal noise, whose steps lie about its mean: all of them are in one step.
+#[test]
+fn a_noise_repeats_for_the_stuck_time_once_in_1e9_readings() {
+    for noise in [0.5_f64, 0.79, 0.8, 1.39, 1.4, 2.99, 3.0, 4.19, 4.2, 12.9, 13.0, 29.9, 30.0, 99.0, 100.0] {
+        let repeats = stuck_time(noise as f32, 1.0) as u32;
+        let below = |edge: f64| 0.5 * math::erf(edge / (noise * core::f64::consts::SQRT_2));
+        let in_step = |step: i32| below(f64::from(step) + 0.5) - below(f64::from(step) - 0.5);
+        let all_in = |step: i32| (0..=repeats).map(|_| in_step(step)).product::<f64>();
+        let farthest = (7.0 * noise) as i32;
+        let chance: f64 = (-farthest..=farthest).map(all_in).sum();
+        assert!(chance < 1e-9, "{noise} steps, {repeats} repeats: {chance}");
+    }
 }
