@@ -177,16 +177,19 @@ fn example() -> Structure {
     structure(BODIES[2], Mount::CentreOfMass)
 }
 
-/// The defaults, with the sensors that the estimator needs and the encoder's counts at half of the block's α.
+/// The defaults, with the sensors that the estimator needs, the encoder's counts at half of the block's α, and how long an accelerometer with
+/// noise may repeat itself.
 fn example_supervision() -> Parameters {
     let structure = example();
     let block = &structure.block;
     let lever = structure.device.mount.lever_at(block, structure.geometry, 0.5 * block.slenderness()).unwrap();
     let monitor = MonitorParameters::default();
     let encoder = EncoderLimits { counts_per_radian: (lever * block.size() / 5e-6) as f32, ..monitor.encoder };
+    let noisy = |limits| SensorLimits { stuck_time: 0.0045, stuck_time_moving: 0.0045, ..limits };
+    let [block_accelerometer, ground_accelerometer] = [monitor.block_accelerometer, monitor.ground_accelerometer].map(noisy);
     Parameters {
         required: Estimator::ModelAided(MODEL_AIDED).required(),
-        monitor: MonitorParameters { encoder, ..monitor },
+        monitor: MonitorParameters { encoder, block_accelerometer, ground_accelerometer, ..monitor },
         ..Parameters::default()
     }
 }

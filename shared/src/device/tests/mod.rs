@@ -20,6 +20,7 @@ mod flash;
 mod integrity;
 mod resume;
 mod rig;
+mod stuck;
 mod wraps;
 mod zero;
 
