@@ -179,7 +179,8 @@ class Encoder(Table):
     preset
         Encoder that the other keys change; the suite's without the key.
     resolution_m
-        Travel per count; or give counts_per_revolution and pinion_radius_m; from 1e-09 to 0.01.
+        Travel per count, such that 32 bits count the rack's travel at θ = 2α; or give counts_per_revolution
+        and pinion_radius_m; from 1e-09 to 0.01.
     counts_per_revolution
         Counts a revolution after quadrature, of an encoder on a pinion; from 4 to 1e+08.
     pinion_radius_m

@@ -58,7 +58,7 @@ impl LoopScene {
         }
         let ground = scene.ground_motions()?;
         let controller = scene.file.controller.clone().unwrap_or_default();
-        let suite = controller.suite(&scene.origin)?;
+        let suite = scene.loop_sensors(&controller, &pairs)?;
         Ok(LoopScene { scene, ground, controller, suite, pairs })
     }
 

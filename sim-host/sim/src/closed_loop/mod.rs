@@ -2,6 +2,7 @@
 
 pub mod answered;
 pub mod assemble;
+mod bounds;
 pub mod decisions;
 mod design;
 pub mod disturbance;

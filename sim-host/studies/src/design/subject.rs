@@ -48,7 +48,7 @@ impl Subject {
         let one = scene.only(index);
         let controlled = match one.file.controller.clone().filter(|_| one.devices[0].takes_commands()) {
             Some(controller) => {
-                let suite = controller.suite(&scene.origin)?;
+                let suite = scene.loop_sensors(&controller, &[index])?;
                 Some((controller, suite))
             }
             None => None,

@@ -43,7 +43,7 @@ impl Subject {
         let controlled = match scene.file.controller.clone().filter(|_| driven) {
             Some(mut controller) => {
                 controller.belief = specimen.belief(controller.belief);
-                let suite = controller.suite(&scene.origin).map_err(|error| error.to_string())?;
+                let suite = scene.loop_sensors(&controller, &[0]).map_err(|error| error.to_string())?;
                 Some(Controlled { controller, suite, seed: specimen.sensors })
             }
             None => None,

@@ -19,7 +19,7 @@ pub struct EncoderTable {
     /// Encoder that the other keys change; the suite's without the key.
     #[schemars(example = &"amt102-v", extend("enum" = preset::names(preset::ENCODERS).collect::<Vec<_>>()))]
     pub preset: Option<String>,
-    /// Travel per count; or give `counts_per_revolution` and `pinion_radius_m`.
+    /// Travel per count, such that 32 bits count the rack's travel at θ = 2α; or give `counts_per_revolution` and `pinion_radius_m`.
     #[schemars(range(min = 1e-9, max = 0.01))]
     pub resolution_m: Option<f64>,
     /// Counts a revolution after quadrature, of an encoder on a pinion.

@@ -1,0 +1,82 @@
+//! What a controller can count and how long it can wait: scenes beyond that are refused by key.
+
+use std::f64::consts::FRAC_PI_2;
+
+use sprag_shared::structure::Structure;
+
+use crate::scene::controller::ControllerTable;
+use crate::scene::{Scene, SceneError};
+use crate::sensor::Suite;
+
+/// Counts to either side that a register of 32 bits holds.
+const MOST_COUNTS: f64 = (1_u32 << 31) as f64;
+
+/// |θ| over α up to which they are held: hardly a block that is further out comes back.
+const FARTHEST: f64 = 2.0;
+
+/// Parts in which the rack's travel is summed up.
+const PARTS: u32 = 256;
+
+/// Above what rounding to the digits of a message takes away.
+const ROOM: f64 = 1.005;
+
+impl Scene {
+    /// Sensors of `controller` in loops over the devices of these indices, each a clutched pair.
+    ///
+    /// # Errors
+    /// Those of [`ControllerTable::suite`], and [`SceneError`] for an encoder whose count would wrap.
+    pub fn loop_sensors(&self, controller: &ControllerTable, pairs: &[usize]) -> Result<Suite, SceneError> {
+        let suite = controller.suite(&self.origin)?;
+        for &index in pairs {
+            self.check_counts(index, suite.encoder.resolution)?;
+        }
+        Ok(suite)
+    }
+
+    fn check_counts(&self, index: usize, resolution: f64) -> Result<(), SceneError> {
+        let least = farthest_travel(&self.structure(index)) / MOST_COUNTS;
+        let range = format!("at least {:.2e} m, with which a count of 32 bits holds the rack's travel at θ = 2α", ROOM * least);
+        self.key("controller.sensors.encoder.resolution_m").require(resolution, resolution >= least, &range)?;
+        Ok(())
+    }
+}
+
+/// Farthest that the rack travels from θ = 0 up to [`FARTHEST`] α or where the block lies on its side, m.
+fn farthest_travel(structure: &Structure) -> f64 {
+    let block = &structure.block;
+    let part = (FARTHEST * block.slenderness()).min(FRAC_PI_2) / f64::from(PARTS);
+    let lever = |rotation: f64| structure.device.mount.lever_at(block, structure.geometry, rotation).unwrap_or(0.0);
+    let (mut travel, mut farthest) = (0.0_f64, 0.0_f64);
+    for number in 0..PARTS {
+        travel += lever((f64::from(number) + 0.5) * part) * block.size() * part;
+        farthest = farthest.max(travel.abs());
+    }
+    farthest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::LoopScene;
+    use super::*;
+
+    fn desk(change: &str) -> Result<LoopScene, String> {
+        let text = "block = { size_m = 20.0, slenderness_deg = 20.0 }
+            device = [{ kind = 'clutched-pair', mass_ratio = 0.5, engagement = 'rigid' }]
+            ground = [{ motion = 'sine', amplitude_g = 0.3, frequency_hz = 1.0 }]
+            controller = { latency_s = 0.001 }";
+        LoopScene::new(Scene::parse_with(text, "scene", &[change]).unwrap()).map_err(|error| error.to_string())
+    }
+
+    /// A rack at the centre of mass travels 2 R sin α = 13.68 m until θ = 2α, and 2³¹ counts of 6.37 nm are as much.
+    #[test]
+    fn an_encoder_whose_count_would_wrap_is_refused() {
+        assert!(desk("controller.sensors.encoder.resolution_m=6.4e-9").is_ok());
+        let error = desk("controller.sensors.encoder.resolution_m=6.3e-9").unwrap_err();
+        let refusal = "scene: controller.sensors.encoder.resolution_m is 6.3e-9, but must be at least 6.40e-9 m, ";
+        assert!(error.starts_with(refusal), "{error}");
+        // Through a pulley it is three times as far, which an ideal encoder cannot count.
+        let pulley = "mount = 'tying-point', mount_height_m = 18.79, pulley_ratio = 3.0";
+        let error = desk(&format!("device.0={{ kind = 'clutched-pair', mass_ratio = 0.5, {pulley} }}")).unwrap_err();
+        assert!(error.contains("encoder.resolution_m is 1e-8, but must be at least 1.92e-8 m"), "{error}");
+    }
+}
