@@ -229,9 +229,9 @@ class Actuation(Table):
     Attributes
     ----------
     engagement_delay_s
-        Time from the command to engagement; from 0 to 10; 0.0 by default.
+        Time from the command to engagement; in a closed loop below 5 s; from 0 to 10; 0.0 by default.
     release_delay_s
-        Time from the command to release; from 0 to 10; 0.0 by default.
+        Time from the command to release; in a closed loop below 5 s; from 0 to 10; 0.0 by default.
     delay
         Kind of these two delays; inertial by default.
     rise_time_s

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use sprag_shared::structure::Structure;
 
+use super::supervision::longest_actuation;
 use crate::scene::controller::ControllerTable;
 use crate::scene::{Scene, SceneError};
 use crate::sensor::Suite;
@@ -20,15 +21,20 @@ const PARTS: u32 = 256;
 /// Above what rounding to the digits of a message takes away.
 const ROOM: f64 = 1.005;
 
+/// What a sum and a message may be off by, s.
+const ROUNDING: f64 = 1e-9;
+
 impl Scene {
     /// Sensors of `controller` in loops over the devices of these indices, each a clutched pair.
     ///
     /// # Errors
-    /// Those of [`ControllerTable::suite`], and [`SceneError`] for an encoder whose count would wrap.
+    /// Those of [`ControllerTable::suite`], and [`SceneError`] for an encoder whose count would wrap, and for a clutch that takes longer than
+    /// a supervisor waits for it.
     pub fn loop_sensors(&self, controller: &ControllerTable, pairs: &[usize]) -> Result<Suite, SceneError> {
         let suite = controller.suite(&self.origin)?;
         for &index in pairs {
             self.check_counts(index, suite.encoder.resolution)?;
+            self.check_delays(index, controller)?;
         }
         Ok(suite)
     }
@@ -37,6 +43,18 @@ impl Scene {
         let least = farthest_travel(&self.structure(index)) / MOST_COUNTS;
         let range = format!("at least {:.2e} m, with which a count of 32 bits holds the rack's travel at θ = 2α", ROOM * least);
         self.key("controller.sensors.encoder.resolution_m").require(resolution, resolution >= least, &range)?;
+        Ok(())
+    }
+
+    fn check_delays(&self, index: usize, controller: &ControllerTable) -> Result<(), SceneError> {
+        let most = longest_actuation(1.0 / controller.rate_hz) - controller.latency_s;
+        let range =
+            format!("at most {} s in a closed loop, which waits for a clutch for 10 s", (1e6 * (most + ROUNDING)).floor() / 1e6);
+        let actuation = self.devices[index].drivetrain.actuation;
+        for (name, delay) in [("engagement_delay_s", actuation.engagement_delay), ("release_delay_s", actuation.release_delay)] {
+            let key = self.key(&format!("device.{index}.actuation.{name}"));
+            key.require(delay, delay <= most + ROUNDING, &range)?;
+        }
         Ok(())
     }
 }
@@ -58,6 +76,7 @@ fn farthest_travel(structure: &Structure) -> f64 {
 mod tests {
     use super::super::LoopScene;
     use super::*;
+    use crate::interrupt::Interrupt;
 
     fn desk(change: &str) -> Result<LoopScene, String> {
         let text = "block = { size_m = 20.0, slenderness_deg = 20.0 }
@@ -78,5 +97,19 @@ mod tests {
         let pulley = "mount = 'tying-point', mount_height_m = 18.79, pulley_ratio = 3.0";
         let error = desk(&format!("device.0={{ kind = 'clutched-pair', mass_ratio = 0.5, {pulley} }}")).unwrap_err();
         assert!(error.contains("encoder.resolution_m is 1e-8, but must be at least 1.92e-8 m"), "{error}");
+    }
+
+    /// Twice the delay and the latency, and four ticks, are to be within 10 s.
+    #[test]
+    fn a_clutch_that_takes_longer_than_a_supervisor_waits_is_refused_by_the_key_of_its_delay() {
+        for name in ["engagement_delay_s", "release_delay_s"] {
+            let slowest = desk(&format!("device.0.actuation.{name}=4.998")).unwrap();
+            assert!(slowest.task(0, 1, &Interrupt::default()).driver().is_ok(), "{name}");
+            let error = desk(&format!("device.0.actuation.{name}=6")).err();
+            let refusal = format!(
+                "scene: device.0.actuation.{name} is 6, but must be at most 4.998 s in a closed loop, which waits for a clutch for 10 s"
+            );
+            assert_eq!(error, Some(refusal));
+        }
     }
 }

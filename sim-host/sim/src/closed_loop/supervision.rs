@@ -46,6 +46,16 @@ fn missing(sampling: &Sampling, period: f64) -> f64 {
     MISSED * between_readings(sampling, period) + sampling.latency
 }
 
+/// Time that a clutch is given to move, s, where it takes `actuation` (s) at ticks of `period` (s), …
+fn actuator_time(actuation: f64, period: f64) -> f64 {
+    2.0 * actuation + 4.0 * period
+}
+
+/// … and the longest `actuation` for which a monitor waits, s.
+pub fn longest_actuation(period: f64) -> f64 {
+    0.5 * (f64::from(LONGEST_WAIT) - 4.0 * period)
+}
+
 /// Supervision of sensors and clutches; `actuation` (s) is the time from a command to a clutch that has moved.
 pub fn supervision(
     structure: &Structure,
@@ -147,7 +157,7 @@ pub fn supervision(
         },
         both_allowed: false,
         feedback_time: larger(defaults.feedback_time, 2.0 * period),
-        actuator_time: larger(defaults.actuator_time, 2.0 * actuation + 4.0 * period),
+        actuator_time: larger(defaults.actuator_time, actuator_time(actuation, period)),
         plausible: Plausible {
             gyroscope: larger(defaults.plausible.gyroscope, 5.0 * gyroscope.bias),
             accelerometer: larger(

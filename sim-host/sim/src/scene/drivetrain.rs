@@ -155,10 +155,10 @@ impl From<DelayName> for Delay {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ActuationTable {
-    /// Time from the command to engagement.
+    /// Time from the command to engagement; in a closed loop below 5 s.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub engagement_delay_s: f64,
-    /// Time from the command to release.
+    /// Time from the command to release; in a closed loop below 5 s.
     #[schemars(range(min = 0.0, max = 10.0))]
     pub release_delay_s: f64,
     /// Kind of these two delays.
