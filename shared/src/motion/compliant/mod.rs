@@ -23,8 +23,9 @@ use crate::motion::ground_pair::GroundPair;
 use crate::motion::observer::{Event, Observer};
 use crate::motion::state::{BlockState, Limits, Phase, Stopped};
 
-/// Events at one instant after which the block goes a step without looking for more.
-const MOST_AT_ONCE: u32 = 12;
+/// Events within a step after which the block goes to its end without looking for more: where rounding decides between two modes they may have
+/// no end.
+const MOST_IN_STEP: u32 = 16;
 
 /// A block on a compliant foundation, with an ideal device or without.
 #[derive(Clone, Copy, Debug)]
@@ -131,15 +132,14 @@ impl<S: Real> CompliantSystem<S> {
         limits: &Limits<S>,
         observer: &mut dyn Observer<S>,
     ) -> Result<(), Stopped> {
-        let (mut time, mut tick, mut events, mut at_once) = (S::ZERO, 0_u32, 0_u32, 0_u32);
+        let (mut time, mut tick, mut events, mut in_step) = (S::ZERO, 0_u32, 0_u32, 0_u32);
         let step = ground.step(step);
         // The ground may have jumped here.
         self.settle(state, ground, time, observer);
         while time < duration && state.motion.phase != Phase::Overturned {
-            let before = time;
             let stop = next_stop(&mut tick, step, time, duration);
-            self.follow(state, ground, (&mut time, stop), at_once <= MOST_AT_ONCE, limits, observer);
-            at_once = if time > before { 0 } else { at_once + 1 };
+            self.follow(state, ground, (&mut time, stop), in_step < MOST_IN_STEP, limits, observer);
+            in_step = if time < stop { in_step + 1 } else { 0 };
             events += 1;
             if !(state.motion.rotation + state.motion.velocity + state.height + state.rise).is_finite() {
                 return Err(Stopped::NotFinite { time: time.to_f64() });
@@ -162,14 +162,14 @@ impl<S: Real> CompliantSystem<S> {
         observer: &mut dyn Observer<S>,
     ) {
         if state.motion.rotation == S::ZERO && state.motion.velocity == S::ZERO {
-            // Upright and at rest, it sets out the way it goes.
-            let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
-            let velocity = stretch.state(stretch.length()).motion.velocity;
-            state.motion.direction = Sign::of(velocity, state.motion.direction);
-            (state.motion.side, state.motion.terminal_acceleration_sign) = (state.motion.direction, state.motion.direction);
+            // Upright and at rest, it sets out the way it is pushed. A push that grows from zero has the sign of the motion that it leads to; any other
+            // may turn within the step.
             let push = self.balance(state, ground.at(*time)).push;
-            // A push that grows from zero has the sign of the motion.
-            self.command_seen(state, if push == S::ZERO { velocity } else { push }, *time, observer);
+            let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
+            let push = if push == S::ZERO { stretch.state(stretch.length()).motion.velocity } else { push };
+            state.motion.direction = Sign::of(push, state.motion.direction);
+            (state.motion.side, state.motion.terminal_acceleration_sign) = (state.motion.direction, state.motion.direction);
+            self.command_seen(state, push, *time, observer);
         }
         let stretch = Stretch::new(self, ground, *state, *time, stop - *time);
         let guards = Guard::ALL.into_iter().filter(|_| look);
@@ -177,6 +177,10 @@ impl<S: Real> CompliantSystem<S> {
         stretch.show(until, state.engaged, observer);
         *state = stretch.state(until);
         let Some(guard) = found else {
+            if !look {
+                let BlockState { side, direction, rotation, velocity, .. } = state.motion;
+                (state.motion.side, state.motion.direction) = (Sign::of(rotation, side), Sign::of(velocity, direction));
+            }
             *time = stop;
             return;
         };

@@ -5,6 +5,7 @@ use std::vec::Vec;
 use super::{CompliantState, CompliantSystem, Foot, GroundPair};
 use crate::ground::{AnySegment, GroundSegment, Harmonics, Linear};
 use crate::math;
+use crate::math::sign::Sign;
 use crate::motion::device_snapshot::DeviceOutput;
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::{BlockState, Limits, Phase};
@@ -322,4 +323,47 @@ fn steps_follow_a_ground_that_is_faster_than_the_feet() {
     };
     let (found, close) = (peak(step), peak(1e-5));
     assert!((found / close - 1.0).abs() < 1e-5 && (close - 0.003_014).abs() < 1e-6, "{found} and {close}");
+}
+
+/// On ground that accelerates by −a (1 − t/t₀) the block sets out, turns at 2 t₀ and is upright again at 3 t₀, wherever in its first step that is: the
+/// feet change next to nothing in so short a time.
+#[test]
+fn a_push_that_turns_within_the_first_step_turns_the_block() {
+    for kind in [DeviceKind::None, DeviceKind::Inerter] {
+        let (system, step) = system(device(kind, KinematicsKind::Consistent), 5.0, 0.3);
+        let limits = Limits { events: 1000, ..LIMITS };
+        for part in [0.1, 0.2, 0.3, 0.34, 0.3625, 0.45, 0.5, 0.6, 0.9] {
+            let (zero, duration) = (part * step, 3.5 * step);
+            let run = |step: f64| {
+                let push = Linear::between(-3e-5, -3e-5 * (1.0 - duration / zero), duration);
+                let ground = GroundPair { horizontal: &push, vertical: None };
+                let (mut state, mut seen) = (system.at_rest(), Seen::default());
+                system.advance(step, &mut state, ground, duration, &limits, &mut seen).unwrap();
+                (state.motion, seen)
+            };
+            let ((coarse, seen), (fine, _)) = (run(step), run(step / 64.0));
+            let [(Event::Turn, turn)] = seen.events[..] else { panic!("{kind:?} {part}: {:?}", seen.events) };
+            assert!((turn / (2.0 * zero) - 1.0).abs() < 1e-2, "{kind:?} {part}: {turn} {zero}");
+            let off = (coarse.velocity / fine.velocity - 1.0).abs().max((coarse.rotation / fine.rotation - 1.0).abs());
+            assert!(off < 1e-3, "{kind:?} {part}: {coarse:?} {fine:?}");
+        }
+    }
+}
+
+/// A block that moves against the direction that its state has comes to zero again and again, each time at once. One step is seen from the
+/// other toe then.
+#[test]
+fn events_without_an_end_are_left_out_of_one_step() {
+    let (system, step) = system(Device::NONE, 5.0, 0.3);
+    let limits = Limits { events: 1000, ..LIMITS };
+    let run = |direction: Sign| {
+        let mut state = system.at_rest();
+        state.motion = BlockState { velocity: 1e-3, side: direction, direction, ..state.motion };
+        let ground = GroundPair { horizontal: &still(), vertical: None };
+        system.advance(step, &mut state, ground, 10.0 * step, &limits, &mut Seen::default()).unwrap();
+        state
+    };
+    let (right, wrong) = (run(Sign::Positive), run(Sign::Negative));
+    assert!((wrong.motion.rotation / right.motion.rotation - 1.0).abs() < 1e-5, "{wrong:?} {right:?}");
+    assert!((wrong.motion.velocity / right.motion.velocity - 1.0).abs() < 1e-5, "{wrong:?} {right:?}");
 }
