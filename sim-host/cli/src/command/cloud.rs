@@ -176,7 +176,7 @@ fn subject(study: &Study, records: &StudyRecords) -> anyhow::Result<Subject> {
 impl Divided for CloudArguments {
     fn divisible(&self, context: &mut Context<'_>) -> anyhow::Result<Divisible> {
         self.accuracy.keeps_rows(Some("a plan"))?;
-        let study = self.input.load(None)?;
+        let study = self.input.load(self.accuracy.accuracy.map(AccuracyArguments::change))?;
         let (records, _) = self.input.read(&study, false, &self.threads.pool()?, context)?;
         let list = RunList::new(&study, &records.records);
         let origin = Origin::new(subject(&study, &records)?, list.rows());

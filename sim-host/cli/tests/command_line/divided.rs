@@ -71,19 +71,21 @@ fn parts_of_a_map_in_any_order_are_the_map() {
 
 #[test]
 fn parts_of_a_cloud_are_the_cloud() {
-    let (root, whole, collected) = folders();
-    let here = root.path();
-    let (study, records) = (scene("cloud"), folder_of_pulses(here));
-    let cloud = ["cloud", &study, "--records", &records, "--formats", "csv,svg", "--out"];
-    well(sprag(here, &[&cloud[..], &["one"]].concat()));
-    well(sprag(here, &[&["plan", "parts", "--parts", "4", "--"], &cloud[..], &["other"]].concat()));
-    for part in ["1", "2", "3", "4"] {
-        well(sprag(here, &["part", "parts", part]));
-    }
-    well(sprag(here, &["collect", "parts"]));
-    for name in ["runs.csv", "demand.csv", "fragility.csv", "fragility.svg", "summary.json"] {
-        let read = |folder: &Path| std::fs::read(folder.join(name)).unwrap();
-        assert!(read(&whole) == read(&collected), "{name}");
+    for accuracy in [&[][..], &["--accuracy", "fast"]] {
+        let (root, whole, collected) = folders();
+        let here = root.path();
+        let (study, records) = (scene("cloud"), folder_of_pulses(here));
+        let cloud = [&["cloud", &study, "--records", &records, "--formats", "csv,svg"][..], accuracy, &["--out"]].concat();
+        well(sprag(here, &[&cloud[..], &["one"]].concat()));
+        well(sprag(here, &[&["plan", "parts", "--parts", "4", "--"], &cloud[..], &["other"]].concat()));
+        for part in ["1", "2", "3", "4"] {
+            well(sprag(here, &["part", "parts", part]));
+        }
+        well(sprag(here, &["collect", "parts"]));
+        for name in ["runs.csv", "demand.csv", "fragility.csv", "fragility.svg", "summary.json"] {
+            let read = |folder: &Path| std::fs::read(folder.join(name)).unwrap();
+            assert!(read(&whole) == read(&collected), "{accuracy:?} {name}");
+        }
     }
 }
 
