@@ -5,7 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use sprag_sim::accuracy::Worst;
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::scene::{Scene, SceneError};
+use sprag_sim::scene::{Scene, SceneError, document, overrides, text_of};
 use sprag_sim::side_by_side::Subject;
 use sprag_sim::simulation::RunError;
 
@@ -190,7 +190,8 @@ fn changed(
         let tables = toml::Value::try_from(&tables).map_err(|error| error.to_string())?;
         overrides.push(format!("vertical={tables}"));
     }
-    let scene = Scene::load(path, &overrides).map_err(|error| error.to_string())?;
+    let of_scene = |error: SceneError| error.to_string().replace(&format!("device.{own}"), &format!("device.{index}"));
+    let scene = unwatched(path, &overrides).map_err(of_scene)?;
     let same = scene.devices[own] == base.devices[index]
         && scene.file.device[own].support_oscillator() == base.file.device[index].support_oscillator()
         && scene.geometry() == base.geometry()
@@ -201,6 +202,20 @@ fn changed(
         return Err("the scene has it already".to_owned());
     }
     Ok(scene.only(own))
+}
+
+/// The scene at `path` with `overrides`, without what no run of a study looks at: its checks and the ledger of energy.
+fn unwatched(path: &Path, overrides: &[String]) -> Result<Scene, SceneError> {
+    let origin = path.display().to_string();
+    let mut table = document::table(&text_of(path)?, &origin)?;
+    overrides::apply_all(&mut table, overrides, &origin)?;
+    table.remove("checks");
+    if let Some(toml::Value::Table(output)) = table.get_mut("output") {
+        output.remove("energy");
+    }
+    let mut scene = Scene::of_table(table, &origin)?;
+    scene.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+    Ok(scene)
 }
 
 #[cfg(test)]
@@ -236,6 +251,22 @@ mod tests {
         assert!(left_out.contains("kinematics: consistent for inerter: the scene has it already"), "{left_out}");
         assert!(left_out.contains("give only one of both"), "{left_out}");
         assert!(!left_out.contains("wall of 5 Hz, 5 % damping for inerter"), "a wall of 7 Hz is another: {left_out}");
+    }
+
+    /// Neither what another device is nor what no run looks at keeps a variant from a device.
+    #[test]
+    fn a_foundation_is_for_every_ideal_device_of_a_scene() {
+        let sets = ["device.2.engagement=rigid", "checks.friction_coefficient=0.5", "output.energy=true"];
+        let (_, study) = Study::load(near_fault(), &sets.map(str::to_owned)).unwrap();
+        let devices = |effect: &str| -> Vec<usize> {
+            let of_effect = |setup: &&Setup| setup.variant.is_some_and(|number| VARIANTS[number].effect == effect);
+            study.setups.iter().filter(of_effect).map(|setup| setup.device).collect()
+        };
+        assert_eq!(devices("foundation"), [0, 1, 0, 1], "{:?}", study.left_out);
+        assert_eq!(devices("sliding"), [0], "{:?}", study.left_out);
+        let refused: Vec<&String> = study.left_out.iter().filter(|line| line.starts_with("foundation")).collect();
+        let of_pair = |line: &&String| line.contains("for clutched pair") && line.contains("device.2 is not an ideal one");
+        assert!(refused.len() == 2 && refused.iter().all(of_pair), "{refused:?}");
     }
 
     /// The keys of `value` below `path` that have a value.

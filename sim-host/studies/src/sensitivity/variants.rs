@@ -68,18 +68,24 @@ pub const VARIANTS: [Variant; 33] = [
         EVERY,
         &["block.restitution_scatter=0.02", "block.restitution_seed=1"],
     ),
-    variant(
-        "foundation",
-        "vertical frequency 10 Hz, ζ = 0.3",
-        EVERY,
-        &["block.foundation.vertical_frequency_hz=10", "block.foundation.damping_ratio=0.3"],
-    ),
-    variant(
-        "foundation",
-        "vertical frequency 5 Hz, ζ = 0.3",
-        EVERY,
-        &["block.foundation.vertical_frequency_hz=5", "block.foundation.damping_ratio=0.3"],
-    ),
+    Variant {
+        alone: true,
+        ..variant(
+            "foundation",
+            "vertical frequency 10 Hz, ζ = 0.3",
+            EVERY,
+            &["block.foundation.vertical_frequency_hz=10", "block.foundation.damping_ratio=0.3"],
+        )
+    },
+    Variant {
+        alone: true,
+        ..variant(
+            "foundation",
+            "vertical frequency 5 Hz, ζ = 0.3",
+            EVERY,
+            &["block.foundation.vertical_frequency_hz=5", "block.foundation.damping_ratio=0.3"],
+        )
+    },
     Variant { alone: true, ..variant("sliding", "μ = 0.4", BARE, &["block.friction_coefficient=0.4"]) },
     variant("support", "amplifies the ground by 20 %", INERTERS, &["device.N.support_amplification=1.2"]),
     variant("support", "reduces the ground by 20 %", INERTERS, &["device.N.support_amplification=0.8"]),
