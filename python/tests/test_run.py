@@ -115,6 +115,7 @@ def test_an_accuracy_that_cannot_be_meant_is_refused(accuracy: object) -> None:
     with pytest.raises(sprag.InputError) as raised:
         sprag.simulate(scene, accuracy=accuracy)
     assert str(raised.value.key).startswith("accuracy")
+    assert "untagged" not in str(raised.value)
 
 
 def test_a_record_that_is_gone_is_one_error(tmp_path: Path) -> None:

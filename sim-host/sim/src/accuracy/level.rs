@@ -31,6 +31,13 @@ impl Accuracy {
     /// The three levels, from the least accurate.
     pub const LEVELS: [Accuracy; 3] = [Accuracy::Fast, Accuracy::Normal, Accuracy::Tight];
 
+    /// What a word or a number for it must be.
+    pub fn expected() -> String {
+        format!(
+            "must be fast, normal, tight, or a relative error of the peak rotation from {SMALLEST_ERROR:e} to {LARGEST_ERROR}"
+        )
+    }
+
     /// The tolerance of the series to begin with.
     pub fn tolerance(self) -> f64 {
         match self {
@@ -68,11 +75,7 @@ impl FromStr for Accuracy {
     fn from_str(text: &str) -> Result<Accuracy, String> {
         let level = Accuracy::LEVELS.into_iter().find(|level| level.to_string() == text);
         let error = || text.parse().ok().filter(|error| (SMALLEST_ERROR..=LARGEST_ERROR).contains(error)).map(Accuracy::Error);
-        level.or_else(error).ok_or_else(|| {
-            format!(
-                "must be fast, normal, tight, or a relative error of the peak rotation from {SMALLEST_ERROR:e} to {LARGEST_ERROR}"
-            )
-        })
+        level.or_else(error).ok_or_else(Accuracy::expected)
     }
 }
 

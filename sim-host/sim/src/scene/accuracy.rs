@@ -140,7 +140,8 @@ mod level {
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Accuracy>, D::Error> {
-        let text = match Written::deserialize(deserializer)? {
+        // Of what is neither, an untagged enum says nothing that a user knows.
+        let text = match Written::deserialize(deserializer).map_err(|_| D::Error::custom(Accuracy::expected()))? {
             Written::Word(word) => word,
             Written::Number(number) => format!("{number:e}"),
         };

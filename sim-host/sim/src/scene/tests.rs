@@ -116,6 +116,8 @@ fn the_key_or_the_word_that_was_probably_meant_is_named() {
         ("ground.0.motion=sinus", "ground.0.motion is \"sinus\"; did you mean \"sine\"?"),
         ("device.1.kind=damper", "device.1.kind: unknown variant `damper`, expected one of `none`"),
         ("block.colour=3", "unknown field `colour`, expected one of `size_m`"),
+        ("accuracy.level=true", "accuracy.level: must be fast, normal, tight, or a relative error of the peak rotation"),
+        ("accuracy.level=[1e-6]", "accuracy.level: must be fast, normal, tight, or a relative error of the peak rotation"),
     ] {
         let message = refused(&[item]);
         assert!(message.contains(words), "{item}: {message}");
