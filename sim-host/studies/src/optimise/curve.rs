@@ -49,6 +49,12 @@ impl Curve {
         scene.file.controller.clone_from(&self.controller);
         Ok(scene)
     }
+
+    /// Why `scene` does not take that device, if so. It is none of the scene's, so that its key would name another one.
+    pub(super) fn refusal(&self, scene: &Scene, mass_ratio: f64, delay_s: f64) -> Option<String> {
+        let error = self.scene(scene, mass_ratio, delay_s).err()?;
+        Some(error.to_string().replacen(&format!("{}: ", scene.origin), "", 1).replace("device.0.", ""))
+    }
 }
 
 /// `scene` with `device` alone, nothing to write down, and checks that look for its largest force and travel, and what its gears and coils
@@ -89,13 +95,9 @@ pub(super) fn curves(
             mount.attach(&mut device);
             let curve = Curve { law: name.clone(), mount: mount.name(), device, controller: controller.clone() };
             let ends = [table.mass_ratio.from, table.mass_ratio.to];
-            match ends.into_iter().try_for_each(|mass_ratio| curve.scene(scene, mass_ratio, 0.0).map(|_| ())) {
-                Ok(()) => curves.push(curve),
-                // The device is none of the scene's, so that its key would name another one.
-                Err(error) => {
-                    let reason = error.to_string().replacen(&format!("{}: ", scene.origin), "", 1).replace("device.0.", "");
-                    reasons.push(format!("{}: {reason}", curve.name()));
-                }
+            match ends.into_iter().find_map(|mass_ratio| curve.refusal(scene, mass_ratio, 0.0)) {
+                None => curves.push(curve),
+                Some(reason) => reasons.push(format!("{}: {reason}", curve.name())),
             }
         }
     }

@@ -49,6 +49,12 @@ pub(super) fn is_commanded(choices: &Choices<'_>, curve: usize) -> bool {
     device.kind == Kind::ClutchedPair && device.engagement != Some(EngagementName::Overrunning)
 }
 
+/// Why the device `at` cannot have clutches that are as late as the study asks for, if so.
+pub(super) fn refusal(choices: &Choices<'_>, at: Candidate) -> Option<String> {
+    let refused = |&delay_s: &f64| choices.curves[at.curve].refusal(&choices.structure.scene, at.mass_ratio, delay_s);
+    choices.table.delays_s.iter().filter(|_| is_commanded(choices, at.curve)).find_map(refused)
+}
+
 /// The bare block or the best single inerter within the limits, whichever is better.
 fn plain<'a>(choices: &Choices<'_>, bare: &'a Design, designs: &'a [Design]) -> &'a Design {
     let is_inerter = |design: &&Design| design.candidate.is_some_and(|at| choices.curves[at.curve].device.kind == Kind::Inerter);
@@ -57,7 +63,7 @@ fn plain<'a>(choices: &Choices<'_>, bare: &'a Design, designs: &'a [Design]) -> 
 }
 
 /// Tries the best of `designs` with the delays of the study, and then between the last at which it is better than its plain rival for sure within
-/// the limits and the first at which it is not. By delay.
+/// the limits and the first at which it is not. By delay; none where it cannot be late.
 ///
 /// # Errors
 /// The errors of `evaluate`.
@@ -69,9 +75,8 @@ pub(super) fn try_late<E>(
 ) -> Result<Vec<Design>, E> {
     let choices = &problem.choices;
     let chosen = best(designs, &choices.limits);
-    let Some(at) = chosen.and_then(|design| design.candidate).filter(|at| is_commanded(choices, at.curve)) else {
-        return Ok(Vec::new());
-    };
+    let can_be_late = |at: &Candidate| is_commanded(choices, at.curve) && refusal(choices, *at).is_none();
+    let Some(at) = chosen.and_then(|design| design.candidate).filter(can_be_late) else { return Ok(Vec::new()) };
     let Some(chosen) = chosen.filter(|_| !choices.table.delays_s.is_empty()) else { return Ok(Vec::new()) };
     let rival = plain(choices, bare, designs);
     let delayed: Vec<Candidate> = choices.table.delays_s.iter().map(|&delay_s| Candidate { delay_s, ..at }).collect();

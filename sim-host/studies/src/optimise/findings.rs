@@ -120,7 +120,8 @@ pub struct Findings {
     pub best_without_limits: Option<Row>,
     /// The best of each law and mount that respects the limits.
     pub best_of_each: Vec<Row>,
-    /// How late the clutches of the best may be; left out where the study names no delays, or nobody commands the clutches.
+    /// How late the clutches of the best may be; left out where the study names no delays, nobody commands the clutches, or they
+    /// cannot be late.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub delay_budget: Option<DelayBudget>,
     /// How sure the choice is; null where none respects the limits.

@@ -1,5 +1,6 @@
 //! What to know of a choice before it is believed.
 
+use super::delay::refusal;
 use super::findings::{Findings, Row};
 use super::problem::Choices;
 use super::search::BEST_FACTOR;
@@ -59,6 +60,9 @@ pub(super) fn notes(choices: &Choices<'_>, findings: &Findings) -> Vec<String> {
             "Of the motions that the bare block survives, {} it with the chosen device.",
             if best.newly_overturned == 1 { "1 overturns".to_owned() } else { format!("{} overturn", best.newly_overturned) }
         ));
+    }
+    if let Some(reason) = best.candidate.and_then(|at| refusal(choices, at)) {
+        notes.push(format!("No delay budget, for the clutches of the chosen device cannot be late: {reason}."));
     }
     let range = choices.table.mass_ratio;
     let mass_ratio = best.mass_ratio.unwrap_or(range.to);

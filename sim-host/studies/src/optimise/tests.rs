@@ -198,6 +198,24 @@ fn means_are_shown_beside_means() {
     assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
 }
 
+/// At the base corners no clutch can be late: nothing is run for it, and one note says so.
+#[test]
+fn a_device_that_cannot_be_late_has_no_delay_budget() {
+    let at_the_corners =
+        WORST.replace("laws = ['inerter', 'clutched-pair']", "laws = ['clutched-pair']\nmounts = ['base-corners']");
+    let study = Study::parse(&at_the_corners, "study.toml", Path::new(""), &[], &[]).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+    let found = Findings::of(&problem, &solution);
+    assert!(found.best.is_some() && found.delay_budget.is_none() && solution.failures.is_empty(), "{:?}", solution.failures);
+    assert_eq!(found.runs, (1 + found.designs) * problem.trials());
+    let notes: Vec<&String> = found.notes.iter().filter(|note| note.contains("delay budget")).collect();
+    assert!(
+        notes.len() == 1 && notes[0].contains("cannot be late: actuation: ") && notes[0].contains("base corners"),
+        "{notes:?}"
+    );
+}
+
 /// What the scene of a study has was looked at.
 #[test]
 fn the_choice_denies_nothing_that_its_scene_has() {
