@@ -64,6 +64,7 @@ impl<S: Real> Observer<S> for CoilUse {
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
         self.closings += tail.closings;
+        self.engaged_s += tail.engaged.to_f64();
     }
 
     fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {

@@ -34,6 +34,8 @@ pub struct Accumulation<S> {
     pub impacts: u32,
     /// Closings of a clutch that follows the swings, in those that start faster than impacts count.
     pub closings: u32,
+    /// Time for which such clutches are engaged, of all swings, s.
+    pub engaged: S,
     /// Largest |θ̈|, rad/s²; 0 where the block does not bounce at all.
     pub acceleration: S,
 }
@@ -47,10 +49,10 @@ impl<S: Real> Accumulation<S> {
         let swing = |(rising, falling): (S, S)| {
             let fall = (falling / rising).square_root();
             let back = if falling > S::ZERO { fall / falling } else { S::ZERO };
-            (S::ONE / rising + back, fall)
+            (S::ONE / rising + back, fall, back)
         };
-        let (here, fall_here) = swing(here);
-        let (there, fall_there) = swing(there);
+        let (here, fall_here, back_here) = swing(here);
+        let (there, fall_there, back_there) = swing(there);
         let ratio_here = restitution * fall_here;
         let ratio_there = restitution * fall_there;
         let both = ratio_here * ratio_there;
@@ -58,9 +60,11 @@ impl<S: Real> Accumulation<S> {
         let largest = if ratio_here > S::ZERO { largest_here.larger(largest_there) } else { largest_here };
         let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
-            return Accumulation { duration: S::of(1e30), swing: speed * (here + there), impacts: 0, closings: 0, acceleration };
+            let (duration, swing) = (S::of(1e30), speed * (here + there));
+            return Accumulation { duration, swing, impacts: 0, closings: 0, engaged: S::ZERO, acceleration };
         }
-        let duration = speed * (here + ratio_here * there) / (S::ONE - both);
+        let sum = |here: S, there: S| speed * (here + ratio_here * there) / (S::ONE - both);
+        let (duration, engaged) = (sum(here, there), sum(back_here, back_there));
         let (mut impacts, mut closings) = (0, 0);
         let (mut outgoing, mut falls) = (speed, [fall_here, fall_there]);
         while impacts < 100_000 {
@@ -73,13 +77,13 @@ impl<S: Real> Accumulation<S> {
             outgoing = incoming * restitution;
             falls = [falls[1], falls[0]];
         }
-        Accumulation { duration, swing: speed * (here + there), impacts, closings, acceleration }
+        Accumulation { duration, swing: speed * (here + there), impacts, closings, engaged, acceleration }
     }
 
     /// The same of a device whose clutches, if it has any, do not follow the swings.
     #[must_use]
     pub fn without_closings(self) -> Accumulation<S> {
-        Accumulation { closings: 0, ..self }
+        Accumulation { closings: 0, engaged: S::ZERO, ..self }
     }
 
     /// The largest |θ̈| of a motion that had `peak` before them (rad/s²). Swings before them have shown theirs already, but for what the ground
@@ -114,6 +118,7 @@ mod tests {
         let incoming = core::iter::successors(Some(0.5_f64), |speed| Some(speed * 0.8));
         assert_eq!(tail.impacts, incoming.take_while(|speed| *speed >= 0.1).count() as u32);
         assert_eq!((tail.closings, tail.without_closings().closings), (tail.impacts, 0));
+        assert!((tail.engaged / tail.duration - 0.5).abs() < 1e-15 && tail.without_closings().engaged == 0.0);
         assert!(Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 1.0, 0.5, 0.1).duration > 1e29);
     }
 
@@ -121,16 +126,17 @@ mod tests {
     #[test]
     fn swings_one_by_one() {
         let (sides, eta) = ([(2.0_f64, 1.5), (2.6, 2.1)], 0.7);
-        let (mut speed, mut time) = (0.4, 0.0);
+        let (mut speed, mut time, mut engaged) = (0.4, 0.0, 0.0);
         for n in 0..200 {
             let (rising, falling) = sides[n % 2];
             let height = speed * speed / (2.0 * rising);
             let incoming = (2.0 * falling * height).sqrt();
             time += speed / rising + incoming / falling;
+            engaged += incoming / falling;
             speed = eta * incoming;
         }
         let tail = Accumulation::of(sides[0], sides[1], eta, 0.4, 1e-3);
-        assert!((tail.duration - time).abs() < 1e-14 * time);
+        assert!((tail.duration - time).abs() < 1e-14 * time && (tail.engaged - engaged).abs() < 1e-14 * time);
     }
 
     /// Held at the top of the first swing, the block has no other: v/a₁, without an impact. Held at the top of the second one, it has had both.

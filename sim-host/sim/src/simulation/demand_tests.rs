@@ -143,6 +143,25 @@ fn the_rest_threshold_does_not_show_in_what_clutches_do() {
     }
 }
 
+/// The coils of a block that a ground just above its threshold lifts hold in the bounces that its rest stands for, as in those that are followed.
+#[test]
+fn coils_hold_in_the_last_bounces() {
+    let [exact, finer, usual] = ["1e-12", "1e-8", "1e-6"].map(|speed| {
+        let run = runs_of(&format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 10.0, restitution = 0.9 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 1.0 }}]
+            ground = [{{ motion = 'sine', amplitude_ratio = 1.0001, frequency_ratio = 2.0 }}]
+            run = {{ rest_speed_ratio = {speed} }}
+            checks = {{ coil = {{ holding_power_w = 100 }} }}"
+        ));
+        run[0].checks.as_ref().unwrap().coil_energy_j.unwrap()
+    });
+    // The ground, so near the threshold, changes their rates as they last.
+    for (energy, apart) in [(finer, 1e-5), (usual, 1e-2)] {
+        assert!((energy / exact - 1.0).abs() < apart, "{energy} {exact}");
+    }
+}
+
 /// Which engagements a second pulse finds missed does not hang on how many bounces of the first one are followed.
 #[test]
 fn the_rest_threshold_does_not_show_in_what_clutches_miss() {
