@@ -110,6 +110,13 @@ pub enum Stopped {
         /// The mode of block and clutches then.
         mode: &'static str,
     },
+    /// Events between which time stands still.
+    Endless {
+        /// Time in the ground segment, s.
+        time: f64,
+        /// The mode of block and clutches then.
+        mode: &'static str,
+    },
     /// More steps without an event than fit one ground segment.
     TooManySteps {
         /// Time in the ground segment, s.
@@ -127,6 +134,7 @@ impl Stopped {
     pub fn after(self, start: f64) -> Stopped {
         match self {
             Stopped::TooManyEvents { time, mode } => Stopped::TooManyEvents { time: start + time, mode },
+            Stopped::Endless { time, mode } => Stopped::Endless { time: start + time, mode },
             Stopped::TooManySteps { time } => Stopped::TooManySteps { time: start + time },
             Stopped::NotFinite { time } => Stopped::NotFinite { time: start + time },
         }
@@ -137,6 +145,11 @@ impl core::fmt::Display for Stopped {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Stopped::TooManyEvents { time, mode } => write!(
+                formatter,
+                "at {time:.6} s, while {mode}, there have been too many events; a restitution below 1, a larger rest speed or a dwell of \
+                 the clutches leaves fewer"
+            ),
+            Stopped::Endless { time, mode } => write!(
                 formatter,
                 "at {time:.6} s, while {mode}, events follow one another without end; a dwell of the clutches, or a fixed step (beside \
                  springs that of exponential-midpoint), goes past them"

@@ -184,7 +184,7 @@ impl<S: Real> HybridSystem<S> {
         // 1/p.
         let unit = self.slenderness / self.speed;
         if *events >= limits.events || *at_once >= ENDLESS {
-            return Err(too_many(state, *time));
+            return Err(too_many(state, *time, *at_once));
         }
         if *steps / STEPS_PER_EVENT >= limits.events {
             return Err(Stopped::TooManySteps { time: time.to_f64() });
