@@ -17,6 +17,16 @@ use crate::motion::state::{BlockState, Phase};
 /// How many times as fast as the rack a support is under whose motion the block's own is too slow to switch clutches.
 const SLOW: f64 = 1e3;
 
+/// Share of the speed that counts from which on swings that flywheels may speed up are followed. An engagement in one that does not count is not
+/// missed, so that within two of them a clutch that locks has closed.
+const FOLLOWED: f64 = 1e-2;
+
+/// Speed of a swing over that of the one before from which on plates that drive the block may make it count, or many after it.
+const GAIN: f64 = 0.9;
+
+/// Pairs of swings up to which plates that drive the block until their flywheel has slowed down are followed.
+const MOST_DRIVEN: f64 = 2e3;
+
 /// How many flywheels.
 fn count(wheels: [bool; 2]) -> u32 {
     wheels.map(u32::from).iter().sum()
@@ -79,6 +89,10 @@ impl<S: Real> HybridSystem<S> {
         }
         let stuck = self.stuck(&standing, &state.device);
         let tail = self.accumulation(&standing, stuck, velocity.abs());
+        let followed = (self.counted_speed * S::of(FOLLOWED)).larger(self.speed * S::EPSILON);
+        if velocity.abs() > followed && self.speeds_up(&standing, &tail) {
+            return time;
+        }
         let stands = |at| self.uplifting(&standing, shaking.at(at)) < S::ZERO;
         let Some(ends) = tail.rest(time, duration, negligible, stands) else { return time };
         observer.accumulation(&tail);
@@ -101,6 +115,32 @@ impl<S: Real> HybridSystem<S> {
         let Some(terminals) = standing.device.terminals.filter(|_| self.transmission.traits().commanded) else { return false };
         let rack = self.body.to_terminal(&self.body.configuration(standing.motion.side.unit(), S::ZERO), velocity);
         terminals.support.abs() < S::of(SLOW) * rack.abs()
+    }
+
+    /// Whether the flywheel for the motion `way` turns that way faster than the rack of a block at the θ̇ of `speed` (rad/s).
+    fn is_ahead(&self, standing: &HybridState<S>, way: Sign, speed: S) -> bool {
+        let configuration = self.body.configuration(standing.motion.side.unit(), S::ZERO);
+        let rack = self.body.to_terminal(&configuration, speed).abs();
+        way.times(standing.device.wheels[wheel_for(way)].spin) > rack
+    }
+
+    /// Whether flywheels that coast ahead may make the swings of a block that is as in `standing` after them, and whose sums are `tail`, fast enough
+    /// to count: a clutch that locks shares its flywheel's speed at once; plates have to make up for nearly all that an impact takes, and drive the
+    /// block for w k/F_c.
+    fn speeds_up(&self, standing: &HybridState<S>, tail: &Accumulation<S>) -> bool {
+        let Actuator { engagement_delay, controlled, .. } = self.actuator;
+        let Traits { commanded, springs, .. } = self.transmission.traits();
+        let slips = self.transmission.slips_viscously();
+        if !commanded || controlled || springs || slips || standing.device.terminals.is_some() {
+            return false;
+        }
+        let plates = self.plates();
+        [Sign::Positive, Sign::Negative].into_iter().any(|way| {
+            let wheel = &standing.device.wheels[wheel_for(way)];
+            let closes = engagement_delay.larger(wheel.dwell) <= S::ZERO && self.is_ahead(standing, way, self.counted_speed);
+            let slows = wheel.spin.abs() * self.transmission.parameters.inertance / plates;
+            closes && (!plates.is_finite() || (tail.gain > S::of(GAIN) && slows < tail.swing * S::of(MOST_DRIVEN)))
+        })
     }
 
     /// The flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
@@ -180,6 +220,10 @@ impl<S: Real> HybridSystem<S> {
         };
         let engaged = S::count(count(locked));
         let plates = self.plates();
+        // Plates resist the fall, unless their flywheel coasts ahead of it.
+        let fastest = self.rest_speed.larger(self.counted_speed);
+        let clutched = !carried && stuck.is_none() && plates.is_finite();
+        let driven_in = inward && clutched && self.is_ahead(standing, direction, fastest);
         let over = |load: S| {
             let rate = |inertance: S, bearings: S| {
                 let inertia = S::ONE + (inertance * (S::ONE + load) + rack_coupling) * arm * arm;
@@ -190,7 +234,7 @@ impl<S: Real> HybridSystem<S> {
             let sticks = rate(inertance, inertance * bearing_dry);
             // Plates pass no more than they can as they meet; outward they push the block.
             let slips = if engaged > S::ZERO && plates.is_finite() {
-                rate(S::ZERO, engaged * if inward { plates } else { -plates })
+                rate(S::ZERO, engaged * if inward && !driven_in { plates } else { -plates })
             } else {
                 sticks
             };
@@ -201,7 +245,7 @@ impl<S: Real> HybridSystem<S> {
         let driven = if inward { loaded } else { over(-load_friction).0 };
         for (wheel, locked) in state.device.wheels.iter_mut().zip(locked) {
             wheel.coupling = match wheel.coupling {
-                _ if locked && slip => Coupling::Slipping(side.opposite()),
+                _ if locked && slip => Coupling::Slipping(if driven_in { side } else { side.opposite() }),
                 _ if locked => Coupling::Locked,
                 Coupling::Locked => Coupling::Open,
                 other => other,

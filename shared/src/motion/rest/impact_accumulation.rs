@@ -30,6 +30,8 @@ pub struct Accumulation<S> {
     pub duration: S,
     /// Duration of the first two swings, s.
     pub swing: S,
+    /// Largest speed at which one of them leaves the block over that of the one before.
+    pub gain: S,
     /// Impacts that still count.
     pub impacts: u32,
     /// Closings of a clutch that follows the swings, in those that start faster than impacts count.
@@ -55,13 +57,13 @@ impl<S: Real> Accumulation<S> {
         let (there, fall_there, back_there) = swing(there);
         let ratio_here = restitution * fall_here;
         let ratio_there = restitution * fall_there;
-        let both = ratio_here * ratio_there;
+        let (both, gain) = (ratio_here * ratio_there, ratio_here.larger(ratio_there));
         // A block that friction holds at the top of its swing never comes to the other side.
         let largest = if ratio_here > S::ZERO { largest_here.larger(largest_there) } else { largest_here };
         let acceleration = if speed == S::ZERO { S::ZERO } else { largest };
         if both >= S::ONE - S::EPSILON * S::of(64.0) {
             let (duration, swing) = (S::of(1e30), speed * (here + there));
-            return Accumulation { duration, swing, impacts: 0, closings: 0, engaged: S::ZERO, acceleration };
+            return Accumulation { duration, swing, gain, impacts: 0, closings: 0, engaged: S::ZERO, acceleration };
         }
         let sum = |here: S, there: S| speed * (here + ratio_here * there) / (S::ONE - both);
         let (duration, engaged) = (sum(here, there), sum(back_here, back_there));
@@ -77,7 +79,7 @@ impl<S: Real> Accumulation<S> {
             outgoing = incoming * restitution;
             falls = [falls[1], falls[0]];
         }
-        Accumulation { duration, swing: speed * (here + there), impacts, closings, engaged, acceleration }
+        Accumulation { duration, swing: speed * (here + there), gain, impacts, closings, engaged, acceleration }
     }
 
     /// The same of a device whose clutches, if it has any, do not follow the swings.
@@ -119,6 +121,7 @@ mod tests {
         assert_eq!(tail.impacts, incoming.take_while(|speed| *speed >= 0.1).count() as u32);
         assert_eq!((tail.closings, tail.without_closings().closings), (tail.impacts, 0));
         assert!((tail.engaged / tail.duration - 0.5).abs() < 1e-15 && tail.without_closings().engaged == 0.0);
+        assert!((tail.gain - 0.8).abs() < 1e-15);
         assert!(Accumulation::of((3.0_f64, 3.0), (3.0, 3.0), 1.0, 0.5, 0.1).duration > 1e29);
     }
 
