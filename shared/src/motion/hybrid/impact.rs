@@ -143,7 +143,7 @@ impl<S: Real> HybridSystem<S> {
         })
     }
 
-    /// The flywheels that stay locked to the rack through the swings of a block that is as in `standing` after them: those that a controller holds,
+    /// The flywheels that stay engaged through the swings of a block that is as in `standing` after them: those that a controller holds,
     /// or where swings are too short for what delays their clutches, which are as in `device` before them; none where clutches follow every swing.
     fn stuck(&self, standing: &HybridState<S>, device: &DeviceState<S>) -> Option<[bool; 2]> {
         let Actuator { engagement_delay, release_delay, controlled, .. } = self.actuator;
@@ -156,12 +156,11 @@ impl<S: Real> HybridSystem<S> {
         if controlled {
             return Some(standing.device.wheels.each_ref().map(is_locked));
         }
-        // Only clutches that lock: plates give way.
-        if !self.actuator.is_late() || self.plates().is_finite() {
+        if !self.actuator.is_late() {
             return None;
         }
         let stays = |wheel: &FlywheelState<S>| match wheel.coupling {
-            Coupling::Locked => release_delay.larger(wheel.dwell) > S::ZERO,
+            Coupling::Locked | Coupling::Slipping(_) => release_delay.larger(wheel.dwell) > S::ZERO,
             // Once it is engaged it stays so.
             _ => engagement_delay.larger(wheel.dwell) <= S::ZERO,
         };
@@ -183,11 +182,17 @@ impl<S: Real> HybridSystem<S> {
     /// Impact accumulation: the infinitely many impacts that follow a weak one ([`crate::motion::rest::impact_accumulation`]), with `stuck`
     /// flywheels ([`HybridSystem::stuck`]).
     fn accumulation(&self, standing: &HybridState<S>, stuck: Option<[bool; 2]>, speed: S) -> Accumulation<S> {
-        let [out, back, farther, home] = ways(standing.motion.side).map(|way| self.bounce(standing, stuck, way).0);
+        let [(out, starts), (back, _), (farther, _), (home, _)] = ways(standing.motion.side).map(|way| {
+            let (rate, starts, _) = self.bounce(standing, stuck, way);
+            (rate, starts)
+        });
         // As it hits, the block has the flywheels that it has as it falls.
         let hits = if self.transmission.traits().through_impacts { stuck.map_or(1, count) } else { 0 };
         let restitution = self.restitution[hits.min(2) as usize];
-        let tail = Accumulation::of((out, back), (farther, home), restitution, speed, self.counted_speed);
+        let mut tail = Accumulation::of((out, back), (farther, home), restitution, speed, self.counted_speed);
+        if tail.acceleration > S::ZERO {
+            tail.acceleration = tail.acceleration.larger(starts.abs());
+        }
         let follow = self.transmission.traits().commanded
             && !self.is_carried(standing)
             && !self.actuator.controlled
@@ -195,13 +200,14 @@ impl<S: Real> HybridSystem<S> {
         if follow { tail } else { tail.without_closings() }
     }
 
-    /// A way of such impacts: |θ̈| (rad/s²; inward, 0 where friction holds the block at the top), and block and device on it.
+    /// A way of such impacts: |θ̈| (rad/s²; inward, 0 where friction holds the block at the top), θ̈ towards the base as it begins, and block and
+    /// device then.
     fn bounce(
         &self,
         standing: &HybridState<S>,
         stuck: Option<[bool; 2]>,
         (side, direction): (Sign, Sign),
-    ) -> (S, HybridState<S>) {
+    ) -> (S, S, HybridState<S>) {
         let ScaledParameters { inertance, rack_coupling, rack_dry, bearing_dry, load_friction, .. } =
             self.transmission.parameters;
         let traits = self.transmission.traits();
@@ -238,9 +244,12 @@ impl<S: Real> HybridSystem<S> {
             } else {
                 sticks
             };
-            (sticks.larger(slips).larger(if inward { S::ZERO } else { S::EPSILON * S::EPSILON }), slips > sticks)
+            (sticks.larger(slips).larger(if inward { S::ZERO } else { S::EPSILON * S::EPSILON }), slips, slips > sticks)
         };
-        let (loaded, slip) = over(load_friction);
+        let (loaded, slips, slip) = over(load_friction);
+        // Flywheels keep the speed that an impact takes from the rack, so that plates that are still engaged then slip.
+        let struck = !inward && stuck.is_some() && engaged > S::ZERO && plates.is_finite() && self.restitution[0] < S::ONE;
+        let slip = slip || struck;
         // Outward the flywheel drives the rack, unless its bearings slow it down faster than the weight does the block.
         let driven = if inward { loaded } else { over(-load_friction).0 };
         for (wheel, locked) in state.device.wheels.iter_mut().zip(locked) {
@@ -256,17 +265,18 @@ impl<S: Real> HybridSystem<S> {
         // Friction has the sign of a speed that is nothing beside all others.
         let velocity = direction.times(self.rest_speed * S::EPSILON);
         state.motion = BlockState { direction, velocity, ..standing.motion.uplifted(side) };
-        (loaded.larger(driven), state)
+        let rate = loaded.larger(driven);
+        (rate, if struck { slips } else { rate }, state)
     }
 
     /// Observation of the ways of impacts that accumulate, up to the one on which friction holds the block.
     fn show_bounces(&self, standing: &HybridState<S>, stuck: Option<[bool; 2]>, time: S, observer: &mut dyn Observer<S>) {
         for (side, direction) in ways(standing.motion.side) {
-            let (rate, state) = self.bounce(standing, stuck, (side, direction));
+            let (rate, starts, state) = self.bounce(standing, stuck, (side, direction));
             if rate == S::ZERO {
                 return;
             }
-            let acceleration = side.opposite().times(rate);
+            let acceleration = side.opposite().times(starts);
             observer.device_bounce(side, time, &|| self.snapshot(&self.law(&state), &state, &self.place(&state), acceleration));
         }
     }

@@ -298,6 +298,23 @@ fn the_last_bounces_ask_for_what_they_are_followed_with() {
     assert!((force / (2.0 * k * cos * sin / (1.0 + k * cos * cos)) - 1.0).abs() < 1e-3, "{force}");
 }
 
+/// Plates that a delay keeps engaged slip after each impact, both with the whole of what they can pass: 2 F_c on the support, summed or followed.
+#[test]
+fn late_plates_push_with_what_they_can_in_the_last_bounces() {
+    for speed in ["1e-6", "1e-8"] {
+        let run = runs_of(&format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 20.0, restitution = 0.966 }}
+            device = [{{ kind = 'clutched-pair', mass_ratio = 1.0, flywheel = {{ brake_deceleration_m_s2 = 'instant' }}, \
+             clutch = {{ capacity_ratio = 0.4 }}, actuation = {{ release_delay_s = 0.004 }} }}]
+            ground = [{{ motion = 'sine', amplitude_ratio = 1.0001, frequency_ratio = 10.0 }}]
+            run = {{ rest_speed_ratio = {speed} }}
+            checks = {{}}"
+        ));
+        let forces = [run[0].peak_force_ratio, run[0].checks.as_ref().unwrap().force_ratio].map(Option::unwrap);
+        assert!(forces.iter().all(|force| (force - 0.8).abs() < 1e-9), "{speed}: {forces:?}");
+    }
+}
+
 /// A block of 2 m and 10° that friction of `device` holds at `rotation_ratio` of α under `ground`.
 fn held(rotation_ratio: f64, device: &str, ground: &str, more: &str) -> DeviceRun {
     let text = format!(
