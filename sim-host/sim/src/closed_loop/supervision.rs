@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn the_bound_of_the_chance_is_close() {
         // Independent readings: two are equal with 1/(2 √π) over the noise in steps, three with 1/(2 π √3) over its square.
-        assert!((chance_of_repeats(9.0, 4.0, 1) - 0.282_09 / 4.0).abs() < 1e-6);
+        assert!((chance_of_repeats(9.0, 4.0, 1) - 0.282_095 / 4.0).abs() < 1e-6);
         assert!((chance_of_repeats(9.0, 4.0, 2) - 0.159_15 / 16.0 / 3_f64.sqrt()).abs() < 1e-6);
         // Of an MPU-6050 that is simulated for 3e6 readings 9 repeats are counted 10 times.
         let nine = chance_of_repeats(0.098, 3.4, 9);
