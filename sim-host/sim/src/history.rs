@@ -20,7 +20,7 @@ pub struct Sample {
     pub acceleration_rad_s2: f64,
     /// Inerter force over block weight, by flywheel: first, second (dimensionless).
     pub force_ratio: [f64; 2],
-    /// The flywheels that are engaged, as [`clutches`] counts.
+    /// The flywheels that are engaged, as [`clutches`](sprag_shared::observers::counted_swing::clutches) counts.
     pub engaged: u8,
     /// Displacement of the base over the ground (m); 0 where it cannot slide.
     pub displacement_m: f64,
