@@ -51,6 +51,13 @@ pub struct MonotoneInterval<S> {
     pub direction: Sign,
 }
 
+impl<S: Real> MonotoneInterval<S> {
+    /// max |θ̇|, rad/s.
+    pub fn fastest(&self) -> S {
+        self.first.velocity.abs().larger(self.last.velocity.abs())
+    }
+}
+
 /// Observer of monotone intervals and events, in order. Times are local to the ground segment.
 pub trait Observer<S: Real> {
     /// Wants every swing of a free motion; otherwise its end is summed in closed form ([`Decay`]).

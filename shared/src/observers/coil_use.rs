@@ -53,8 +53,7 @@ impl<S: Real> Observer<S> for CoilUse {
     #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
-        let fastest = interval.first.velocity.abs().larger(interval.last.velocity.abs());
-        self.moves(engaged, fastest.to_f64(), (interval.to - interval.from).to_f64());
+        self.moves(engaged, interval.fastest().to_f64(), (interval.to - interval.from).to_f64());
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {

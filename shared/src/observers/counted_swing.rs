@@ -2,7 +2,7 @@
 //! them are followed.
 
 use crate::math::scalar::Real;
-use crate::motion::observer::{Event, MonotoneInterval};
+use crate::motion::observer::Event;
 use crate::motion::state::BlockState;
 use crate::structure::{COUNTED_SPEED, Structure};
 
@@ -24,11 +24,6 @@ impl CountedSwing {
     pub fn of(loaded: &Structure) -> CountedSwing {
         let block = &loaded.block;
         CountedSwing { speed: COUNTED_SPEED * block.frequency_parameter() * block.slenderness(), weak: false }
-    }
-
-    /// The block moves.
-    pub fn moves<S: Real>(&mut self, interval: &MonotoneInterval<S>) {
-        self.reaches(interval.first.velocity.abs().larger(interval.last.velocity.abs()).to_f64());
     }
 
     /// The block moves as fast as `velocity` (rad/s, not negative).

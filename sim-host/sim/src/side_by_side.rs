@@ -9,7 +9,6 @@ use sprag_shared::ground::{GroundSegment, Harmonics};
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::coil_use::CoilUse;
-use sprag_shared::observers::counted_swing::CountedSwing;
 
 use crate::ground_motion::{GroundMotion, Segment};
 use crate::record::Record;
@@ -170,8 +169,7 @@ fn watch(scene: &Scene) -> Option<(Checks<f64>, Option<CoilUse>)> {
         return None;
     }
     let checks = if table.is_some_and(|table| table.gear.is_some()) { all.of_flywheels() } else { all.brief() };
-    let coils = table.is_some_and(|table| table.coil.is_some()) && device.takes_commands();
-    Some((checks, coils.then(|| CoilUse::of(false, CountedSwing::of(&loaded)))))
+    Some((checks, table.and_then(|table| table.coil_use(device, &loaded, false))))
 }
 
 /// What becomes of each subject on its ground and in the free time of its scene, in their order; `None` for those that the core is to follow.

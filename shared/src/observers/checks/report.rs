@@ -18,6 +18,11 @@ impl<S: Real> Extreme<S> {
             *extreme = Some(Extreme { value, time });
         }
     }
+
+    /// The larger of two; the first of equals.
+    fn largest(extremes: [Option<Extreme<S>>; 2]) -> Option<Extreme<S>> {
+        extremes.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
+    }
 }
 
 /// Extremes over the time in which the block rocks; none where it never did.
@@ -48,12 +53,12 @@ pub struct Report<S> {
 impl<S: Real> Report<S> {
     /// Farthest travel of the terminals, m: half the length that a rack needs between its stops.
     pub fn stroke(&self) -> Option<Extreme<S>> {
-        self.travel.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
+        Extreme::largest(self.travel)
     }
 
     /// Largest |F|/(mg) of one flywheel at the rack, where its teeth mesh with the drive.
     pub fn largest_force(&self) -> Option<Extreme<S>> {
-        self.force.into_iter().flatten().reduce(|a, b| if b.value > a.value { b } else { a })
+        Extreme::largest(self.force)
     }
 
     /// The record of a quantity in the order of the readings: friction, −V, the forces of the flywheels, that on the support.

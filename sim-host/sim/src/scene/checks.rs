@@ -4,7 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_with::skip_serializing_none;
 use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::counted_swing::CountedSwing;
+use sprag_shared::structure::Structure;
 
+use super::device::SceneDevice;
 use super::error::SceneError;
 use super::schema::KeyOf;
 
@@ -71,6 +74,13 @@ impl CoilTable {
 }
 
 impl ChecksTable {
+    /// Who looks at the coils of `device` on a `loaded` block, which works at rest too where it is `carried`; nobody where no coil is given, or
+    /// none holds a clutch.
+    pub(crate) fn coil_use(&self, device: &SceneDevice, loaded: &Structure, carried: bool) -> Option<CoilUse> {
+        let looks = self.coil.is_some() && device.takes_commands();
+        looks.then(|| CoilUse::of(carried, CountedSwing::of(loaded)))
+    }
+
     /// # Errors
     /// [`SceneError`] names the key.
     pub(super) fn check(&self, block_mass: Option<f64>, key: &KeyOf<'_>) -> Result<(), SceneError> {

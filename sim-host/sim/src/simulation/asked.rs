@@ -6,7 +6,6 @@ use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::coil_use::CoilUse;
-use sprag_shared::observers::counted_swing::CountedSwing;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
@@ -28,9 +27,8 @@ impl<S: Real> Asked<S> {
         let energy = || {
             EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.device().account(loaded)), task.interval)
         };
-        let coils = task.scene.file.checks.as_ref().is_some_and(|checks| checks.coil.is_some()) && task.device().takes_commands();
-        let use_of_coils = || CoilUse::of(task.carried(), CountedSwing::of(loaded));
-        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils: coils.then(use_of_coils) })
+        let coils = task.scene.file.checks.as_ref().and_then(|checks| checks.coil_use(task.device(), loaded, task.carried()));
+        Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils })
     }
 
     /// What a controller has commanded, in the place of what the clutches did.

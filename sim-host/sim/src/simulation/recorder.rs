@@ -173,7 +173,7 @@ impl<'a> Recorder<'a> {
 
 impl<S: Real> Observer<S> for Recorder<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        self.swing.moves(interval);
+        self.swing.reaches(interval.fastest().to_f64());
         let start = self.origin + interval.start.to_f64();
         // Summed as the core sums them, so that an arc ends on the very instant at which the next one starts.
         let at = |time: S| self.origin + (interval.start + time).to_f64();
