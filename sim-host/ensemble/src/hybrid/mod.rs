@@ -102,6 +102,7 @@ impl HybridBlock<'_> {
             plates: self.system.transmission.kind == TransmissionKind::Friction,
             forces: self.checks.is_some(),
             flywheels: self.checks.is_some_and(Checks::looks_at_flywheels),
+            coils: self.coils.is_some(),
             terms: self.terms(),
         }
     }
@@ -152,6 +153,8 @@ pub(crate) struct Kind {
     pub(crate) forces: bool,
     /// So are those of the flywheels.
     pub(crate) flywheels: bool,
+    /// Coils are looked at.
+    pub(crate) coils: bool,
     /// Coefficients of θ.
     pub(crate) terms: usize,
 }

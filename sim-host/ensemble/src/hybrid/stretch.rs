@@ -95,7 +95,7 @@ pub(super) struct Stretch<B> {
     largest_on_wheel: Number,
     /// Largest force of plates that slip in this mode, 1/s².
     slip_force: Number,
-    /// max |θ̇| since the core had the block, rad/s.
+    /// max |θ̇| since the core had the block, rad/s, where coils are looked at.
     pub(super) fastest: Number,
     /// max |θ|, rad.
     pub(super) peak_rotation: Number,
@@ -269,7 +269,9 @@ impl<B: LaneBody> Stretch<B> {
         self.peak_rotation = clean.choose(self.peak_rotation.larger(end.0.abs()), self.peak_rotation);
         self.rotation = clean.choose(end.0, self.rotation);
         self.velocity = clean.choose(end.1, self.velocity);
-        self.fastest = clean.choose(self.fastest.larger(end.1.abs()), self.fastest);
+        if self.kind.coils {
+            self.fastest = clean.choose(self.fastest.larger(end.1.abs()), self.fastest);
+        }
         if self.kind.plates {
             for (spin, end) in self.plates.spin.iter_mut().zip(spin_ends) {
                 *spin = clean.choose(end, *spin);
@@ -326,7 +328,9 @@ impl<B: LaneBody> Stretch<B> {
             if self.kind.plates || self.kind.forces {
                 let locked = locked_force(&at, acceleration);
                 *force = locked.last() * self.locked;
-                *on_wheel = locked.last() * one_locked;
+                if self.kind.flywheels {
+                    *on_wheel = locked.last() * one_locked;
+                }
                 if self.kind.plates {
                     let Plates { capacity, stick, slip: signs, .. } = &self.plates;
                     let sticks = below_capacity(&at, locked, (*capacity, zero)).last();
