@@ -2,6 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use sprag_shared::math::sign::Sign;
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::ledger::Account;
 use sprag_shared::structure::Structure;
 
 use super::supervision::longest_actuation;
@@ -15,7 +18,7 @@ const MOST_COUNTS: f64 = (1_u32 << 31) as f64;
 /// |θ| over α up to which they are held: hardly a block that is further out comes back.
 const FARTHEST: f64 = 2.0;
 
-/// Parts in which the rack's travel is summed up.
+/// Places at which the rack's travel is looked at.
 const PARTS: u32 = 256;
 
 /// Above what rounding to the digits of a message takes away.
@@ -59,17 +62,13 @@ impl Scene {
     }
 }
 
-/// Farthest that the rack travels from θ = 0 up to [`FARTHEST`] α or where the block lies on its side, m.
+/// Farthest that the rack travels from θ = 0 up to [`FARTHEST`] α or where the block lies on its side, m; 0 on a mount without a lever.
 fn farthest_travel(structure: &Structure) -> f64 {
-    let block = &structure.block;
+    let Structure { block, geometry, device, .. } = structure;
+    let Ok(terminals) = Checks::<f64>::new(block, *geometry, &device.mount, &Account::default()) else { return 0.0 };
     let part = (FARTHEST * block.slenderness()).min(FRAC_PI_2) / f64::from(PARTS);
-    let lever = |rotation: f64| structure.device.mount.lever_at(block, structure.geometry, rotation).unwrap_or(0.0);
-    let (mut travel, mut farthest) = (0.0_f64, 0.0_f64);
-    for number in 0..PARTS {
-        travel += lever((f64::from(number) + 0.5) * part) * block.size() * part;
-        farthest = farthest.max(travel.abs());
-    }
-    farthest
+    let travel = |number: u32| terminals.travel(Sign::Positive, f64::from(number) * part).abs();
+    (1..=PARTS).map(travel).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
