@@ -198,13 +198,16 @@ impl<S: Real> Observer<S> for Recorder<'_> {
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        let holds = self.holding != 0 || (interval.engaged && !self.stays_engaged);
+        let holds = self.holding != 0 || interval.engaged;
         if interval.to <= interval.from || !(self.carried || holds) {
             return;
         }
         if !self.carried && self.holding == 0 {
             // Its weight has held it until now.
-            self.stand_to(self.origin + (interval.start + interval.from).to_f64());
+            let from = self.origin + (interval.start + interval.from).to_f64();
+            if self.pending.take_if(|rest| rest.time_s == from).is_none() {
+                self.stand_to(from);
+            }
             self.broken = true;
         }
         self.device_interval(output, interval);
@@ -242,8 +245,7 @@ impl<S: Real> Observer<S> for Recorder<'_> {
                 self.broken = true;
             }
             Event::Rest => {
-                let sample = self.standing(at);
-                self.push(sample);
+                self.pending = Some(self.standing(at));
                 while self.grid() <= at {
                     self.next += 1;
                 }
@@ -276,7 +278,32 @@ impl Segmented for Recorder<'_> {
 
 #[cfg(all(test, feature = "effects"))]
 mod tests {
+    use std::f64::consts::TAU;
+
+    use sprag_shared::math;
+
     use super::super::runs_of;
+
+    /// Slip that is viscous lets the flywheel spin on: its force on a block that stands dies away by the corner frequency.
+    #[test]
+    fn a_history_shows_the_force_of_a_flywheel_that_slips_while_the_block_stands() {
+        let run = runs_of(
+            "block = { size_m = 2.0, slenderness_deg = 10.0, restitution = 0.0 }
+            device = [{ kind = 'inerter', mass_ratio = 0.5, inertance_corner_hz = 4.0 }]
+            ground = [
+                { motion = 'sine', amplitude_ratio = 1.5, frequency_ratio = 6.0 },
+                { motion = 'sine', amplitude_ratio = 0.5, frequency_ratio = 6.0, start_s = 1.0 },
+            ]",
+        )
+        .remove(0);
+        let standing = run.history.samples.iter().skip_while(|sample| Some(&sample.time_s) != run.history.impacts_s.last());
+        let force: Vec<_> = standing.skip(1).map(|sample| (sample.time_s, sample.force_ratio[0])).collect();
+        let [first, second] = [force[0], force[5]];
+        assert!(first.1.abs() > 0.01, "{first:?}");
+        let expected = math::exp(-TAU * 4.0 * (second.0 - first.0));
+        assert!((second.1 / first.1 - expected).abs() < 1e-9, "{first:?} {second:?} {expected}");
+        assert!(run.history.samples.iter().all(|sample| sample.engaged == 1));
+    }
 
     /// Releases that come late, so that the next flywheel is engaged before the last one is let go.
     #[test]
