@@ -173,7 +173,15 @@ impl<S: Real> AnyTransmission<S> {
 
     /// [`Transmission::law`].
     pub fn law(&self, direction: Sign, terminal_acceleration_sign: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        each_transmission!(self.kind, kind => kind.law(&self.parameters, direction, terminal_acceleration_sign, device))
+        let mut law = ModeCoefficients::of(direction);
+        self.complete(&mut law, terminal_acceleration_sign, device);
+        law
+    }
+
+    /// [`Transmission::complete`].
+    pub fn complete(&self, law: &mut ModeCoefficients<S>, terminal_acceleration_sign: Sign, device: &DeviceState<S>) {
+        let parameters = &self.parameters;
+        each_transmission!(self.kind, kind => kind.complete(law, parameters, terminal_acceleration_sign, device));
     }
 
     /// [`Transmission::flow`], θ̈ alone.

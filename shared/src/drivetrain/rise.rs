@@ -68,12 +68,16 @@ pub(super) fn whole<S: Real>(time_constant: S) -> S {
 
 impl<S: Real> ScaledParameters<S> {
     /// The line of a capacity `time` (s) after first contact; none once it is full.
+    #[inline]
     pub fn line_at(&self, time: S) -> Option<Line<S>> {
-        if time >= self.rise_time {
-            return None;
-        }
+        if time >= self.rise_time { None } else { Some(self.rising_line(time)) }
+    }
+
+    // Out of line: what is full, and every clutch without plates is, costs no more than the comparison.
+    #[inline(never)]
+    fn rising_line(&self, time: S) -> Line<S> {
         if self.time_constant == S::ZERO {
-            return Some(Line { time: [S::ZERO, self.rise_time], share: [S::ZERO, S::ONE] });
+            return Line { time: [S::ZERO, self.rise_time], share: [S::ZERO, S::ONE] };
         }
         let knot = |index: usize| self.time_constant * S::of(KNOTS[index]);
         let share = |index: usize| {
@@ -81,7 +85,7 @@ impl<S: Real> ScaledParameters<S> {
             S::of(1.0 - missing * missing)
         };
         let end = (1..LINES).find(|&index| time < knot(index)).unwrap_or(LINES);
-        Some(Line { time: [knot(end - 1), knot(end)], share: [share(end - 1), share(end)] })
+        Line { time: [knot(end - 1), knot(end)], share: [share(end - 1), share(end)] }
     }
 }
 

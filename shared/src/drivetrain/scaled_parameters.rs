@@ -139,6 +139,7 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Capacity now and its growth.
+    #[inline]
     pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
         let Some(Line { time: [from, to], share: [low, high] }) = self.line_at(wheel.engaged_for) else {
             return (self.capacity, S::ZERO);
@@ -148,10 +149,9 @@ impl<S: Real> ScaledParameters<S> {
         (self.contact + all * low + growth * (wheel.engaged_for - from), growth)
     }
 
-    /// Coefficients of the present mode: rack, bearings, brakes and plates.
+    /// Adds rack, bearings, brakes and plates to the coefficients of a direction.
     #[inline]
-    pub fn law(&self, direction: Sign, device: &DeviceState<S>) -> ModeCoefficients<S> {
-        let mut law = ModeCoefficients::of(direction);
+    pub fn complete(&self, law: &mut ModeCoefficients<S>, device: &DeviceState<S>) {
         (law.coupling, law.push.ground) = (self.rack_coupling, self.rack_push);
         (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);
         for (i, wheel) in device.wheels.iter().enumerate() {
@@ -176,8 +176,7 @@ impl<S: Real> ScaledParameters<S> {
                 (law.slip[i], law.slip_growth[i]) = (sign.times(capacity), sign.times(growth));
             }
         }
-        law.dry = direction.times(law.dry);
-        law
+        law.dry = law.direction * law.dry;
     }
 
     /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the

@@ -131,12 +131,25 @@ pub trait Transmission<S: Real, const X: usize, const G: usize> {
         terminal_acceleration_sign: Sign,
         device: &DeviceState<S>,
     ) -> ModeCoefficients<S> {
-        let mut law = parameters.law(direction, device);
+        let mut law = ModeCoefficients::of(direction);
+        self.complete(&mut law, parameters, terminal_acceleration_sign, device);
+        law
+    }
+
+    /// Adds what moves with the rack, the command and what else the kind has to the coefficients of a direction.
+    #[inline(always)]
+    fn complete(
+        &self,
+        law: &mut ModeCoefficients<S>,
+        parameters: &ScaledParameters<S>,
+        terminal_acceleration_sign: Sign,
+        device: &DeviceState<S>,
+    ) {
+        parameters.complete(law, device);
         if Self::COMMANDED {
             law.watch[0] = Guard::Command(terminal_acceleration_sign.unit());
         }
-        self.extend(&mut law, parameters, device);
-        law
+        self.extend(law, parameters, device);
     }
 
     /// What the kind adds to the coefficients of a mode: its guards beside the command, and forces of its clutches.

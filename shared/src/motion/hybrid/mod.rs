@@ -253,7 +253,8 @@ impl<S: Real> HybridSystem<S> {
         // Without springs a held block needs no step.
         let traits = self.transmission.traits();
         let held = traits.springs && state.held;
-        let mut law = self.watching_law(state);
+        let mut law = ModeCoefficients::of(motion.direction);
+        self.complete_watching(&mut law, state);
         if held {
             self.hold_law(state, &mut law);
         }

@@ -15,11 +15,12 @@ use crate::motion::state::Phase;
 use crate::structure::block::Geometry;
 
 impl<S: Real> HybridSystem<S> {
-    /// Coefficients of the mode of `state`, with the command that is watched: its opposite while a jolt's sign holds.
-    pub(super) fn watching_law(&self, state: &HybridState<S>) -> ModeCoefficients<S> {
+    /// Completes the coefficients of the direction of `state`, with the command that is watched: its opposite while a jolt's sign holds.
+    // In the caller's place: a step that copied them would pay as much as for their sum.
+    pub(super) fn complete_watching(&self, law: &mut ModeCoefficients<S>, state: &HybridState<S>) {
         let sign = state.motion.terminal_acceleration_sign;
         let watched = if state.jolted { sign.opposite() } else { sign };
-        self.transmission.law(state.motion.direction, watched, &state.device)
+        self.transmission.complete(law, watched, &state.device);
     }
 
     /// Mode in which a rocking block continues until a guard, θ or θ̇ reaches zero, or something is due ([`HybridSystem::next_due`]). None
@@ -31,7 +32,11 @@ impl<S: Real> HybridSystem<S> {
             .wheels
             .iter()
             .all(|wheel| matches!(wheel.coupling, Coupling::Open | Coupling::Locked | Coupling::Slipping(_)));
-        (plain && firm).then(|| self.watching_law(state))
+        (plain && firm).then(|| {
+            let mut law = ModeCoefficients::of(state.motion.direction);
+            self.complete_watching(&mut law, state);
+            law
+        })
     }
 
     /// The block has moved for `time` (s) without an event in its [`HybridSystem::mode`] to θ (`rotation`, rad) and θ̇ (`velocity`, rad/s),
