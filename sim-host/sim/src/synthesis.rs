@@ -77,6 +77,14 @@ pub enum SynthesisError {
         /// Largest value allowed.
         highest: f64,
     },
+    /// The pulse is longer than the motion.
+    #[error("--duration {duration}: a pulse of {length} s (--pulse-cycles times --pulse-period) needs at least as many")]
+    PulseTooLong {
+        /// Duration of the motion (s).
+        duration: f64,
+        /// Length of the pulse (s).
+        length: f64,
+    },
     /// The pulse begins before the motion or ends after it.
     #[error(
         "--pulse-time {value}: a pulse of {length} s around it does not lie within 0 to {duration} s; allowed are {lowest} to {highest}"
@@ -132,6 +140,9 @@ impl NearFaultMotion {
             }
         }
         let length = self.pulse_cycles * self.pulse_period_s;
+        if length > self.duration_s {
+            return Err(SynthesisError::PulseTooLong { duration: self.duration_s, length });
+        }
         let (lowest, highest) = (0.5 * length, self.duration_s - 0.5 * length);
         if !(lowest..=highest).contains(&self.pulse_time_s) {
             let (value, duration) = (self.pulse_time_s, self.duration_s);
@@ -308,6 +319,10 @@ mod tests {
         assert_eq!(
             message(NearFaultMotion { pulse_time_s: 1.0, ..MOTION }),
             "--pulse-time 1: a pulse of 4 s around it does not lie within 0 to 25 s; allowed are 2 to 23"
+        );
+        assert_eq!(
+            message(NearFaultMotion { pulse_period_s: 15.0, ..MOTION }),
+            "--duration 25: a pulse of 30 s (--pulse-cycles times --pulse-period) needs at least as many"
         );
     }
 

@@ -28,7 +28,10 @@ impl ReadMotions {
         if let (Some(first), true) = (records.first(), scene.file.ground.iter().all(|table| table.motion != Motion::Record)) {
             scene.clone().use_record(&first.horizontal)?;
         }
-        require_files(scene, records)?;
+        // A folder without a record is named below, with what it lacks.
+        if unreadable.is_empty() {
+            require_files(scene, records)?;
+        }
         let reading = Progress::uncounted("reading records");
         let mut read = ReadMotions { motions: StudyMotion::own(scene)?.into_iter().collect(), errors: unreadable.to_vec() };
         for (name, record) in RecordFiles::named(records) {

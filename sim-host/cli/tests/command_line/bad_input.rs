@@ -195,7 +195,15 @@ fn bad_input_of_design_costs_one_line() {
     heavy(&[&["--records", "x.AT2"], vertical.as_flattened()].concat(), &["[[vertical]] or --records"]);
     line(&scene("figure05"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["motion = \"record\""]);
     line(&scene("record"), &["--set", "block.mass_kg=10000"], &["--record"]);
-    line(&scene("record"), &["--set", "block.mass_kg=10000", "--records", "x.AT2"], &["no ground motion could be read", "x.AT2"]);
+    let record = |file: &str, words: &[&str]| {
+        line(
+            &scene("record"),
+            &["--set", "block.mass_kg=10000", "--records", file],
+            &[&["no ground motion could be read"], words].concat(),
+        );
+    };
+    record("x.AT2", &["x.AT2"]);
+    record(concat!(env!("CARGO_MANIFEST_DIR"), "/src"), &["no file in it ends in acc"]);
 }
 
 #[test]

@@ -8,10 +8,11 @@ use sprag_sim::simulation::energy::Shares;
 use super::curve::write_curve;
 use super::decimate::decimate;
 use super::layer::{Anchor, Text, escape, write_area};
-use super::legend::{LegendEntry, Swatch};
+use super::legend::{BOLD_WIDTH, LegendEntry, Swatch, shortened};
 use super::palette::{Colour, FLYWHEEL_TINTS, GROUND, GUIDE, INK, Stroke, device_look};
 use super::panel::Panel;
-use super::stack::Stack;
+use super::stack::{PANELS_PX, Stack};
+use super::text_width::text_width_px;
 use super::ticks::drawable;
 use super::time_axis::check_order;
 use super::{FigureTitle, PlotError, TimeAxis};
@@ -100,7 +101,7 @@ pub fn energy_figure(
         panel.guides = &[1.0];
         let svg = &mut stack.svg;
         let at = (panel.left_px, panel.top_px - 6.0);
-        Text { attributes: " font-weight=\"bold\"", ..Text::new(&escape(&name(run)), at, FONT_PX) }.write(svg, false);
+        Text { attributes: " font-weight=\"bold\"", ..Text::new(&name(run), at, FONT_PX) }.write(svg, false);
         write_areas(svg, &panel, ledger, &layers);
         panel.write_axes(svg, (index + 1 == runs.len()).then_some(axes.title()));
         let line: Vec<(f64, f64)> = ledger.iter().map(|(time, shares)| (*time, supply(shares))).collect();
@@ -142,7 +143,7 @@ fn ledger(run: &DeviceRun, scale: f64) -> Vec<(f64, Shares)> {
     samples
 }
 
-/// Name and outcome, and what the paper's kinematics did if that is not negligible.
+/// Name and outcome, and what the paper's kinematics did if that is not negligible; escaped, and a name that leaves no room for the rest cut.
 fn name(run: &DeviceRun) -> String {
     let kinematics = run.energy.as_ref().map_or(0.0, |energy| energy.entries.kinematics);
     let verb = if kinematics > 0.0 { "took" } else { "gave" };
@@ -151,7 +152,9 @@ fn name(run: &DeviceRun) -> String {
     } else {
         format!("; by the end the paper's kinematics {verb} {:.3}", kinematics.abs())
     };
-    format!("{} ({}){note}", run.device, run.outcome)
+    let rest = format!(" ({}){note}", run.outcome);
+    let room_px = BOLD_WIDTH * PANELS_PX - text_width_px(&rest, FONT_PX);
+    format!("{}{}", shortened(&run.device, room_px), escape(&rest))
 }
 
 /// Upper ends of the panels' scales.
@@ -208,7 +211,7 @@ mod tests {
     use super::*;
     use crate::plot::assert_drawn;
     use crate::plot::layer::units;
-    use crate::plot::stack::{LEFT_PX, PANELS_PX};
+    use crate::plot::stack::LEFT_PX;
     use sprag_shared::observers::ledger::Entries;
     use sprag_shared::observers::outcome::Outcome;
     use sprag_sim::history::History;
@@ -292,14 +295,17 @@ mod tests {
 
     #[test]
     fn energy_that_the_papers_kinematics_give_is_put_in_and_what_they_take_is_an_area() {
-        let with = |kinematics: f64| {
+        let of = |name: &str, kinematics: f64| {
             let add = |(time, shares): (f64, Shares)| (time, Shares { kinematics, ..shares });
             let history = swinging(100, false).into_iter().map(add).collect();
-            energy_figure("", &[run("one", Outcome::Safe, history)], TimeAxis::Seconds, 2.0).unwrap()
+            energy_figure("", &[run(name, Outcome::Safe, history)], TimeAxis::Seconds, 2.0).unwrap()
         };
+        let with = |kinematics: f64| of("one", kinematics);
         let (taken, given) = (with(0.25), with(-0.25));
         assert!(taken.contains("taken by the paper's kinematics") && taken.contains("kinematics took 0.250"));
         assert!(given.contains("given by the paper's kinematics") && given.contains("kinematics gave 0.250"));
+        let long = of(&"long ".repeat(30), -0.25);
+        assert!(long.contains("… (safe); by the end the paper's kinematics gave 0.250<"));
         let shares = Shares { input: 1.0, kinematics: -0.25, ..nothing() };
         assert_eq!(supply(&shares), 1.25);
     }

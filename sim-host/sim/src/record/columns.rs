@@ -46,7 +46,7 @@ pub(super) fn is_time(name: &str) -> bool {
 /// Whether a name has a word or a unit of time, in any language: `Zeit (s)`.
 pub(super) fn speaks_of_time(name: &str) -> bool {
     let unit = |word: &str| matches!(word.to_lowercase().as_str(), "s" | "sec" | "secs" | "second" | "seconds");
-    is_time(name) || seconds_per_unit(name) != 1.0 || name.split(|c: char| !c.is_alphanumeric()).any(unit)
+    is_time(name) || seconds_per_unit(name) == Ok(1e-3) || name.split(|c: char| !c.is_alphanumeric()).any(unit)
 }
 
 /// Whether a column of this name holds accelerations.
@@ -105,11 +105,15 @@ fn refused(name: &str, quantity: &str, column: &str, line: usize) -> RecordError
     RecordError::NotAcceleration { file: name.to_owned(), line: line + 1, quantity }
 }
 
-/// Seconds in one unit of a time column, by its name.
-pub(super) fn seconds_per_unit(name: &str) -> f64 {
-    let milliseconds = name.split(|c: char| !c.is_alphanumeric()).any(|word| {
-        let word = word.to_lowercase();
-        word == "ms" || word == "msec" || word.starts_with("millis")
-    });
-    if milliseconds { 1e-3 } else { 1.0 }
+/// Units of time that no record is in, as names of columns have them.
+const OTHER_TIMES: &str = "min mins minute minutes h hr hrs hour hours day days cs us usec µs μs ns nsec sample samples";
+
+/// Seconds in one unit of a time column, by its name; the unit itself where it is neither s nor ms.
+pub(super) fn seconds_per_unit(name: &str) -> Result<f64, &str> {
+    let words = || name.split(|c: char| !c.is_alphanumeric()).map(|word| (word, word.to_lowercase()));
+    if let Some((word, _)) = words().find(|(_, lower)| OTHER_TIMES.split(' ').any(|other| other == lower)) {
+        return Err(word);
+    }
+    let milliseconds = |(_, word): (&str, String)| word == "ms" || word == "msec" || word.starts_with("millis");
+    Ok(if words().any(milliseconds) { 1e-3 } else { 1.0 })
 }

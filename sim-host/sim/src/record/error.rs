@@ -130,6 +130,16 @@ pub enum RecordError {
         /// The unit as written.
         value: String,
     },
+    /// The times are in another unit than s or ms.
+    #[error("{file}: line {line}: times in {value} are not read; allowed are s and ms")]
+    UnknownTimeUnit {
+        /// File as named by the caller.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// The unit found.
+        value: String,
+    },
     /// The header says that the file holds another quantity, such as velocity.
     #[error("{file}: line {line}: the header says {quantity}; only acceleration histories are read")]
     NotAcceleration {

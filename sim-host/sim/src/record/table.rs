@@ -254,7 +254,12 @@ fn read_columns(
     contents.warnings.extend(counted.then_some(Warning::RowNumbers));
     let Some(time_column) = *time_column else { return Ok(contents) };
 
-    let scale = names.as_ref().map_or(1.0, |(_, names)| seconds_per_unit(names[time_column]));
+    let scale = names.as_ref().map_or(Ok(1.0), |(_, names)| seconds_per_unit(names[time_column]));
+    let scale = scale.map_err(|unit| RecordError::UnknownTimeUnit {
+        file: name.to_owned(),
+        line: names_line + 1,
+        value: unit.to_owned(),
+    })?;
     let times: Vec<f64> = column(time_column).map(|time| time * scale).collect();
     let printed = rows.starts.iter().filter_map(|start| field(lines[start.0], time_column));
     let resolution = column_resolution(printed) * scale;

@@ -202,6 +202,16 @@ fn a_column_that_counts_the_rows_is_no_time_column() {
 }
 
 #[test]
+fn times_in_other_units_are_refused_by_name() {
+    for unit in ["h", "min", "minutes", "days", "cs", "ns", "samples"] {
+        for header in [format!("time ({unit}),acc_g\n"), format!("t_{unit},acc_g\n")] {
+            let error = plain(&format!("{header}0,0.1\n0.01,0.2\n0.02,0.1\n")).unwrap_err();
+            assert_eq!(error.to_string(), format!("t.txt: line 1: times in {unit} are not read; allowed are s and ms"));
+        }
+    }
+}
+
+#[test]
 fn a_step_that_is_given_replaces_one_that_is_stated_only_where_it_is_near() {
     let of = |given: f64| {
         let text = "# dt = .01, units: g\n1\n2\n3\n";

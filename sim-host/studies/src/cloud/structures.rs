@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::Serialize;
+use sprag_sim::keys::Described;
 use sprag_sim::scene::error::KeyPath;
 use sprag_sim::scene::ground::Motion;
 use sprag_sim::scene::schema::SceneFile;
@@ -50,12 +51,20 @@ pub(super) fn structures(
         Some(path) => Scene::load(&folder.join(path), overrides),
         None => Scene::parse_with(PIER, "the scene of a study that names none", overrides),
     };
+    let given = || overrides.iter().filter_map(|item| Some(item.split_once('=')?.0.trim()));
+    for key_given in given() {
+        let has =
+            |schema: &serde_json::Value| schema["properties"].get(key_given.split('.').next().unwrap_or_default()).is_some();
+        if has(StudyFile::schema()) && !has(SceneFile::schema()) {
+            return Err(key(&format!("--set {key_given}")).conflict("a key of the study itself; change it there").into());
+        }
+    }
     let base = load(overrides)?;
     if file.structure.is_empty() {
         let name = if base.file.title.is_empty() { "scene".to_owned() } else { base.file.title.clone() };
         return Ok(vec![structure(name, base)?]);
     }
-    for given in overrides.iter().filter_map(|item| Some(item.split_once('=')?.0.trim())) {
+    for given in given() {
         let of_structures = || file.structure.iter().map(|table| table.set.get(given));
         if of_structures().any(|value| Some(value) != of_structures().next()) {
             let setting = file.structure.iter().filter(|table| table.set.contains_key(given));

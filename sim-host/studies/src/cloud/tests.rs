@@ -78,6 +78,14 @@ fn the_command_line_wins_over_structures_unless_these_differ() {
 }
 
 #[test]
+fn a_key_of_the_study_itself_is_not_set_on_the_command_line() {
+    for key in ["optimise.largest_force_ratio", "scale", "fragility.measure"] {
+        let error = Study::parse(RECORDS, "study.toml", Path::new(""), &[format!("{key}=0.3")], &[]).unwrap_err();
+        assert_eq!(error.to_string(), format!("study.toml: --set {key}: a key of the study itself; change it there"));
+    }
+}
+
+#[test]
 fn what_is_wrong_is_named_with_its_key_and_range() {
     for (keys, expected) in [
         ("scale = [0.0]", "scale.0 is 0, but must be above 0, to 1000"),
