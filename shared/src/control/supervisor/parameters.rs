@@ -47,8 +47,8 @@ pub struct Parameters {
     pub self_test_clutches: bool,
     /// For the first reading of every required sensor, s; above 0, up to 10. Default 1: a sensor's start-up, with room.
     pub boot_time: f32,
-    /// From a command to the feedback that it has been followed, s; above 0, up to 10: no less than delay, dwell and rise time of the
-    /// clutch. Default 30 ms.
+    /// From a command to the feedback that it has been followed, s; above 0, up to 10: no less than delay and dwell of the clutch, whose
+    /// capacity may still rise. Default 30 ms.
     pub actuator_time: f32,
     /// Feedback that changes though the command does not, for this long, s; above 0, up to 10. Default 3 ms: a switch bounces for less.
     pub feedback_time: f32,

@@ -9,13 +9,14 @@ use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
 use sprag_shared::control::model::Model;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
+use sprag_shared::drivetrain::under_way::MOST_UNDER_WAY;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::settings::kind::{Description, Kind};
 use sprag_shared::settings::{SettingError, Settings};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
-use sprag_shared::structure::drivetrain::{Drivetrain, Engagement};
+use sprag_shared::structure::drivetrain::{Delay, Drivetrain, Engagement};
 use sprag_shared::structure::error::ParameterError;
 use sprag_shared::structure::restitution::Restitution;
 
@@ -152,6 +153,16 @@ impl<'a> LoopTask<'a> {
         self.controller.latency_s + actuation.engagement_delay.max(actuation.release_delay)
     }
 
+    /// For how long earlier moves of a clutch may keep it as it is, s: the dwell of the last, or of all that are under way before the newest.
+    fn held(&self) -> f64 {
+        let actuation = self.drivetrain().actuation;
+        let moves = match actuation.delay {
+            Delay::Inertial => 1,
+            Delay::Transport => MOST_UNDER_WAY,
+        };
+        moves as f64 * actuation.dwell
+    }
+
     /// To the middle of the ticks at which its commands are given, each with the delay of what is commanded.
     fn horizons(&self, period: f64) -> Horizons {
         let actuation = self.drivetrain().actuation;
@@ -196,7 +207,7 @@ impl<'a> LoopTask<'a> {
         let period = 1.0 / table.rate_hz;
         let (shock, model_error) = (table.shock_s, table.belief.model_error);
         let design = SensorDesign::new(&structure, self.suite, table.estimator, period, shock, model_error)?;
-        let supervision = supervision(&structure, self.suite, &design, table, self.actuation());
+        let supervision = supervision(&structure, self.suite, &design, table, (self.actuation(), self.held()));
         let controller = Controller {
             model: Model::new(&structure, &self.drivetrain())?,
             instruments: design.instruments,

@@ -51,18 +51,25 @@ fn actuator_time(actuation: f64, period: f64) -> f64 {
     2.0 * actuation + 4.0 * period
 }
 
+/// … where its earlier moves may keep it as it is for `held` (s) before, …
+fn actuator_time_held(actuation: f64, held: f64, period: f64) -> f64 {
+    let free = actuator_time(actuation, period);
+    free.max((free + held).min(LONGEST_WAIT.into()))
+}
+
 /// … and the longest `actuation` for which a monitor waits, s.
 pub fn longest_actuation(period: f64) -> f64 {
     0.5 * (f64::from(LONGEST_WAIT) - 4.0 * period)
 }
 
-/// Supervision of sensors and clutches; `actuation` (s) is the time from a command to a clutch that has moved.
+/// Supervision of sensors and clutches; `actuation` (s) is the time from a command to a clutch that has moved, and its earlier moves may keep
+/// it as it is for `held` (s) before.
 pub fn supervision(
     structure: &Structure,
     suite: &Suite,
     design: &SensorDesign,
     table: &ControllerTable,
-    actuation: f64,
+    (actuation, held): (f64, f64),
 ) -> Parameters {
     let Suite { gyroscope, block_accelerometer, ground_accelerometer, encoder } = suite;
     let defaults = Parameters::default();
@@ -157,7 +164,7 @@ pub fn supervision(
         },
         both_allowed: false,
         feedback_time: larger(defaults.feedback_time, 2.0 * period),
-        actuator_time: larger(defaults.actuator_time, actuator_time(actuation, period)),
+        actuator_time: larger(defaults.actuator_time, actuator_time_held(actuation, held, period)),
         plausible: Plausible {
             gyroscope: larger(defaults.plausible.gyroscope, 5.0 * gyroscope.bias),
             accelerometer: larger(
@@ -212,7 +219,7 @@ mod tests {
         let task = desk.task(0, 1, &interrupt);
         let (structure, table) = (task.believed().unwrap(), &desk.controller);
         let design = SensorDesign::new(&structure, &desk.suite, table.estimator, 5e-4, table.shock_s, 0.02).unwrap();
-        supervision(&structure, &desk.suite, &design, table, 0.0).monitor
+        supervision(&structure, &desk.suite, &design, table, (0.0, 0.0)).monitor
     }
 
     fn faults(desk: &LoopScene, seed: u64) -> usize {
@@ -368,6 +375,28 @@ mod tests {
             let scene = Scene::load(&scene, &[format!("controller.sensors.{sensor}")]).unwrap();
             assert_eq!(faults(&LoopScene::new(scene).unwrap(), 1), 0, "{sensor}");
         }
+    }
+
+    /// After a move, or until all that was commanded before has moved it, in order.
+    #[test]
+    fn a_clutch_that_its_dwell_holds_is_no_fault() {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/controller.toml");
+        for actuation in [
+            "dwell_s = 0.05",
+            "dwell_s = 0.5",
+            "engagement_delay_s = 0.01, dwell_s = 0.01, delay = 'transport'",
+            "engagement_delay_s = 0.01, dwell_s = 0.05, delay = 'transport'",
+        ] {
+            let scene = Scene::load(&scene, &[format!("device.0.actuation={{ {actuation} }}")]).unwrap();
+            let desk = LoopScene::new(scene).unwrap();
+            assert_eq!(faults(&desk, 1), 0, "{actuation}");
+            // One that stays open is found all the same.
+            assert!(faults_with(&desk, 1, &mut Injected::new(Failing::Refuses, 0.5)) > 0, "{actuation}");
+        }
+        // No dwell is longer than a monitor may wait.
+        let longest =
+            desk_of("slenderness_deg = 12.0", "actuation = { dwell_s = 10.0 }", "amplitude_g = 0.4, frequency_hz = 1.3", "");
+        assert!(longest.task(0, 1, &Interrupt::default()).driver().is_ok());
     }
 
     #[test]
