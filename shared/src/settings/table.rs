@@ -53,7 +53,7 @@ const AXES: Description = choice(&["+x", "-x", "+y", "-y", "+z", "-z"], 0).only(
 
 /// Of numbers that nothing but their meaning bounds.
 const LARGE: f32 = 1e6;
-/// Of gains, whose size goes with powers of the rate.
+/// Of gains, whose size goes with powers of the rate, and of counts of the finest encoders.
 const GAIN: f32 = 1e12;
 /// Of times in ticks that are kept in 16 bits.
 const TICKS: u32 = u16::MAX as u32;
@@ -198,7 +198,7 @@ parameters! {
     GroundFullScale "monitor.ground_accelerometer.full_scale" positive("m/s²", 78.0);
     GroundSaturationTime "monitor.ground_accelerometer.saturation_time" span(10.0, 0.004);
     EncoderStaleTime "monitor.encoder.stale_time" duration(10.0, 0.003);
-    CountsPerRadian "monitor.encoder.counts_per_radian" real("counts/rad", -1e9, 1e9, 398_477.88);
+    CountsPerRadian "monitor.encoder.counts_per_radian" real("counts/rad", -GAIN, GAIN, 398_477.88);
     EncoderTravel "monitor.encoder.travel" whole("counts", 0, i32::MAX as u32, 0);
     ContradictionTime "monitor.contradiction_time" duration(1.0, 0.004);
     SlowContradictionTime "monitor.slow_contradiction_time" duration(1.0, 0.064);

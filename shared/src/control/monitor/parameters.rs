@@ -31,7 +31,7 @@ pub struct EncoderLimits {
     /// Longest time without a reading, s, as of the other sensors.
     pub stale_time: f32,
     /// Counts per rad of the block at |θ| = α/2: its lever there, ℓ R, times counts per metre of the rack. At any other θ the geometry says how
-    /// many. 0 where it is not to be compared with the gyroscope. Magnitude up to 1e9.
+    /// many. 0 where it is not to be compared with the gyroscope. Magnitude up to 1e12.
     pub counts_per_radian: f32,
     /// Largest distance of a count from θ = 0; at least 0, 0 where there is none.
     pub travel: i32,
@@ -133,7 +133,7 @@ impl MonitorParameters {
         self.ground_accelerometer.check(GROUND_ACCELEROMETER)?;
         duration("encoder.stale_time", self.encoder.stale_time, 10.0)?;
         let scale = self.encoder.counts_per_radian;
-        require("encoder.counts_per_radian", scale.into(), scale.abs() <= 1e9, "from -1e9 to 1e9")?;
+        require("encoder.counts_per_radian", scale.into(), scale.abs() <= 1e12, "from -1e12 to 1e12")?;
         require("encoder.travel", self.encoder.travel.into(), self.encoder.travel >= 0, "at least 0")?;
         duration("contradiction_time", self.contradiction_time, 1.0)?;
         duration("slow_contradiction_time", self.slow_contradiction_time, 1.0)?;

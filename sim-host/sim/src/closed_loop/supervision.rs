@@ -135,7 +135,7 @@ pub fn supervision(
             },
             encoder: EncoderLimits {
                 stale_time: larger(monitor.encoder.stale_time, missing(&encoder.sampling, period)),
-                counts_per_radian: if counts <= 1e9 { counts as f32 } else { 0.0 },
+                counts_per_radian: counts as f32,
                 travel: 0,
             },
             contradiction_time: larger(monitor.contradiction_time, window.max(8.0 * period)),
@@ -339,6 +339,18 @@ mod tests {
                 .driver()
                 .is_ok()
         );
+    }
+
+    /// 2 m cos 6° of lever at α/2 are 1.989e9 counts of a nanometre.
+    #[test]
+    fn the_finest_encoder_is_compared_with_the_gyroscope() {
+        let sensors = "encoder = { resolution_m = 1e-9 }";
+        let counts = f64::from(monitor(sensors).encoder.counts_per_radian);
+        assert!((counts / 1.989_044e9 - 1.0).abs() < 1e-6, "{counts}");
+        let desk = desk(sensors);
+        assert_eq!(faults(&desk, 1), 0);
+        assert!(faults_with(&desk, 1, &mut Injected::new(Failing::Stuck(Part::Encoder), 0.5)) > 0);
+        assert!(desk.task(0, 1, &Interrupt::default()).settings().is_ok());
     }
 
     #[test]

@@ -107,7 +107,7 @@ fn parameters_outside_their_ranges_are_named() {
         ("block_accelerometer.stuck_time", |p, x| p.monitor.block_accelerometer.stuck_time = x, &[-1.0, f32::NAN]),
         ("ground_accelerometer.full_scale", |p, x| p.monitor.ground_accelerometer.full_scale = x, &[0.0, f32::INFINITY]),
         ("encoder.stale_time", |p, x| p.monitor.encoder.stale_time = x, &[0.0]),
-        ("encoder.counts_per_radian", |p, x| p.monitor.encoder.counts_per_radian = x, &[2e9, f32::NAN]),
+        ("encoder.counts_per_radian", |p, x| p.monitor.encoder.counts_per_radian = x, &[2e12, f32::NAN]),
         ("contradiction_time", |p, x| p.monitor.contradiction_time = x, &[0.0, 2.0]),
         ("slow_contradiction_time", |p, x| p.monitor.slow_contradiction_time = x, &[0.001, 2.0]),
         ("lever_tolerance", |p, x| p.monitor.lever_tolerance = x, &[-0.1, 1.0]),
