@@ -19,12 +19,12 @@ const BISECTIONS: usize = 4;
 pub struct DelayBudget {
     /// The rival.
     pub rival: Row,
-    /// By delay, 0 first.
+    /// By delay, 0 first; none where a run failed.
     pub late: Vec<Late>,
     /// Largest delay tried up to which the chosen device is better for sure and respects the limits; null where it is not better without a
     /// delay.
     pub largest_delay_s: Option<f64>,
-    /// Least delay tried at which one of both is lost; null where neither is.
+    /// Least delay tried at which one of both is lost, or a run failed; null where there is none.
     pub lost_at_s: Option<f64>,
 }
 
@@ -81,12 +81,10 @@ pub(super) fn try_late<E>(
     let rival = plain(choices, bare, designs);
     let delayed: Vec<Candidate> = choices.table.delays_s.iter().map(|&delay_s| Candidate { delay_s, ..at }).collect();
     let mut late = evaluate(&delayed)?;
-    let kept = |design: &Design| is_better(problem, design, rival) && choices.limits.allow(&design.score);
     for _ in 0..BISECTIONS {
-        let delay = |design: &Design| design.candidate.map_or(0.0, |at| at.delay_s);
-        let Some(lost) = late.iter().position(|design| !kept(design)) else { break };
+        let Some(lost) = late.iter().position(|design| !is_kept(problem, design, rival)) else { break };
         let before = lost.checked_sub(1).map_or(chosen, |before| &late[before]);
-        if !kept(before) {
+        if !is_kept(problem, before, rival) {
             break;
         }
         let middle = Candidate { delay_s: 0.5 * (delay(before) + delay(&late[lost])), ..at };
@@ -101,6 +99,14 @@ fn is_better(problem: &Problem<'_>, design: &Design, rival: &Design) -> bool {
     complete(design) && overturning(problem, design, rival).is_some_and(|paired| paired.difference > 0.0 && paired.is_sure(level))
 }
 
+fn is_kept(problem: &Problem<'_>, design: &Design, rival: &Design) -> bool {
+    is_better(problem, design, rival) && problem.choices.limits.allow(&design.score)
+}
+
+fn delay(design: &Design) -> f64 {
+    design.candidate.map_or(0.0, |at| at.delay_s)
+}
+
 impl DelayBudget {
     /// Of the designs that `solution` has with later clutches; none without any. `row` makes the row of a design.
     pub(super) fn of(problem: &Problem<'_>, solution: &Solution, row: impl Fn(&Design) -> Row) -> Option<DelayBudget> {
@@ -110,20 +116,20 @@ impl DelayBudget {
         let rival = plain(choices, &solution.bare, &solution.designs);
         let of_design = |design: &Design| {
             Some(Late {
-                delay_s: design.candidate?.delay_s,
+                delay_s: delay(design),
                 probability: design.score.share(),
                 overturning: overturning(problem, design, rival)?,
                 better: is_better(problem, design, rival),
-                feasible: complete(design) && choices.limits.allow(&design.score),
+                feasible: choices.limits.allow(&design.score),
             })
         };
-        let late: Vec<Late> = std::iter::once(undelayed).chain(&solution.late).filter_map(of_design).collect();
-        let lost = late.iter().position(|late| !late.better || !late.feasible);
+        let tried: Vec<&Design> = std::iter::once(undelayed).chain(&solution.late).collect();
+        let lost = tried.iter().position(|design| !is_kept(problem, design, rival));
         Some(DelayBudget {
             rival: row(rival),
-            largest_delay_s: late[..lost.unwrap_or(late.len())].last().map(|late| late.delay_s),
-            lost_at_s: lost.map(|lost| late[lost].delay_s),
-            late,
+            largest_delay_s: tried[..lost.unwrap_or(tried.len())].last().map(|design| delay(design)),
+            lost_at_s: lost.map(|lost| delay(tried[lost])),
+            late: tried.into_iter().filter(|design| complete(design)).filter_map(of_design).collect(),
         })
     }
 
@@ -135,8 +141,11 @@ impl DelayBudget {
                 format!("delay budget: still better than {rival} for sure at {delay} s, the largest delay tried")
             }
             (Some(delay), Some(lost)) => {
-                let beyond = self.late.iter().any(|late| late.delay_s == lost && late.better);
-                let lost_how = if beyond { "beyond the limits" } else { "no more" };
+                let lost_how = match self.late.iter().find(|late| late.delay_s == lost) {
+                    Some(late) if late.better => "beyond the limits",
+                    Some(_) => "no more",
+                    None => "runs fail",
+                };
                 format!("delay budget: better than {rival} for sure up to {delay:.4} s later, {lost_how} at {lost:.4} s")
             }
             (None, _) => format!("delay budget: none, for it is not better than {rival} for sure without a delay"),

@@ -216,6 +216,31 @@ fn a_device_that_cannot_be_late_has_no_delay_budget() {
     );
 }
 
+/// Nobody knows what a run that failed would say, be it one of many or all of a delay.
+#[test]
+fn a_delay_budget_ends_where_a_run_fails() {
+    let text = "[optimise]\nlaws = ['clutched-pair']\nmass_ratio = { from = 0.5, to = 1.0, cells = 2 }\ndelays_s = [0.001, 0.002]\n\
+                [[optimise.pulse]]\nmotion = 'sine'\nfrequency_ratio = [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]\namplitude_ratio = [1.5, 2.0, 3.0, 4.0]";
+    let study = Study::parse(text, "study.toml", Path::new(""), &[], &[]).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+    let solved = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+    let budget = Findings::of(&problem, &solved).delay_budget.unwrap();
+    assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(0.002), None, 3));
+    for (from, kept, lost) in [(0, 0.0, 0.001), (1, 0.001, 0.002)] {
+        for failed in [1, problem.trials()] {
+            let mut solution = solved.clone();
+            for design in &mut solution.late[from..] {
+                design.responses[..failed].fill(Err("stopped".to_owned()));
+                design.score = Score::of(&design.responses, &solved.bare.responses, &problem.choices.limits, problem.objective());
+            }
+            let budget = Findings::of(&problem, &solution).delay_budget.unwrap();
+            assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(kept), Some(lost), 1 + from));
+            let words = format!("delay budget: better than no device for sure up to {kept:.4} s later, runs fail at {lost:.4} s");
+            assert_eq!(budget.words(), words);
+        }
+    }
+}
+
 /// What the scene of a study has was looked at.
 #[test]
 fn the_choice_denies_nothing_that_its_scene_has() {
