@@ -8,6 +8,15 @@ use crate::motion::state::{BlockState, Phase};
 
 use super::counted_swing::{CountedSwing, clutches};
 
+/// What coils did in a whole run, and before the fall of a block that overturns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CoilUses {
+    /// Until the end of the run, or where the block lies on the ground.
+    pub whole: CoilUse,
+    /// Of a block that does not overturn all of it.
+    pub before_fall: CoilUse,
+}
+
 /// How long both clutches of a pair were engaged, and how often they closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CoilUse {

@@ -6,6 +6,7 @@ pub mod checks;
 pub mod coil_use;
 pub mod counted_swing;
 pub mod digest;
+pub mod fall;
 pub mod ledger;
 pub mod outcome;
 pub mod peaks;

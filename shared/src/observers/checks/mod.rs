@@ -19,7 +19,8 @@ use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::rest::impact_accumulation::is_new;
-use crate::motion::state::{BlockState, as_good_as};
+use crate::motion::state::BlockState;
+use crate::observers::fall::Fall;
 use crate::observers::ledger::Account;
 use crate::structure::COUNTED_SPEED;
 use crate::structure::block::{Block, Geometry};
@@ -57,9 +58,7 @@ pub struct Checks<S> {
     first: usize,
     /// The travel of the terminals is looked at.
     travels: bool,
-    /// What was found up to where |θ| last passed α; none below it.
-    up_to_slenderness: Option<Report<S>>,
-    overturned: bool,
+    fall: Fall<S, Report<S>>,
 }
 
 impl<S: Real> Checks<S> {
@@ -70,17 +69,17 @@ impl<S: Real> Checks<S> {
     /// The errors of [`Mount::lever`].
     pub fn new(block: &Block, geometry: Geometry, mount: &Mount, account: &Account) -> Result<Checks<S>, ParameterError> {
         let speed = block.frequency_parameter() * block.slenderness();
+        let toe = Toe::new(block, geometry, mount, account)?;
         Ok(Checks {
             origin: S::ZERO,
             report: Report::default(),
-            toe: Toe::new(block, geometry, mount, account)?,
+            fall: Fall::beyond(toe.slenderness),
+            toe,
             impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
             on_support: account.on_support,
             drags: account.drags,
             first: 0,
             travels: true,
-            up_to_slenderness: None,
-            overturned: false,
         })
     }
 
@@ -126,7 +125,7 @@ impl<S: Real> Checks<S> {
 
     /// As [`Checks::report`]; of a block that has overturned, what was found before its fall.
     pub fn before_fall(&self) -> Report<S> {
-        self.up_to_slenderness.filter(|_| self.overturned).unwrap_or(self.report)
+        self.fall.before().unwrap_or(self.report)
     }
 
     /// The quantities at an instant; those that are not looked at are 0.
@@ -139,23 +138,6 @@ impl<S: Real> Checks<S> {
         let [horizontal, vertical] = self.toe.reactions(side, snapshot);
         let friction = if vertical > S::ZERO { horizontal.abs() / vertical } else { S::ZERO };
         [friction, -vertical, weigh(snapshot.device.force[0]), weigh(snapshot.device.force[1]), support]
-    }
-
-    /// s θ − α, where a free block's θ̈ is 0 and clutches switch.
-    fn beyond(&self, side: Sign, rotation: S) -> S {
-        side.times(rotation) - as_good_as(self.toe.slenderness)
-    }
-
-    /// What has been found at the end of an interval beyond α up to where |θ| passed it, in case the block never comes back.
-    fn before(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> Report<S> {
-        let beyond = |rotation: S| self.beyond(interval.side, rotation);
-        if beyond(interval.first.rotation) >= S::ZERO {
-            return self.up_to_slenderness.unwrap_or(self.report);
-        }
-        let passes = illinois(interval.from, interval.to, Sign::Negative, |t| beyond(output.snapshot(t).motion.rotation));
-        let mut up_to_it = *self;
-        up_to_it.look(output, &MonotoneInterval { to: passes, last: output.snapshot(passes).motion, ..*interval });
-        up_to_it.report
     }
 
     /// Whether an interval may hold a new record of a force. It is a step, which follows at most half a swing of a stiff clutch, or a piece of
@@ -248,10 +230,15 @@ impl<S: Real> Checks<S> {
 
 impl<S: Real> Observer<S> for Checks<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        let is_beyond = self.beyond(interval.side, interval.last.rotation) > S::ZERO;
-        let before = is_beyond.then(|| self.before(output, interval));
+        let passed = self.fall.passed(output, interval, |up_to_it| {
+            let mut before = *self;
+            if let Some(interval) = up_to_it {
+                before.look(output, interval);
+            }
+            before.report
+        });
         self.look(output, interval);
-        self.up_to_slenderness = before;
+        self.fall.keep(passed);
         let engaged = if interval.engaged { output.snapshot(interval.to).device.engaged } else { [false; 2] };
         self.impulses.velocity = Some(interval.last.velocity);
         self.impulses.engaged = engaged.map(u32::from).iter().sum();
@@ -281,7 +268,7 @@ impl<S: Real> Observer<S> for Checks<S> {
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        self.overturned |= event == Event::Overturned;
+        self.fall.event(event);
         self.impulses.event(&self.toe, &mut self.report, event, self.origin + time, state);
     }
 }

@@ -5,12 +5,12 @@ use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::state::BlockState;
 use sprag_shared::observers::checks::Checks;
-use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::coil_use::{CoilUse, CoilUses};
 
 use super::disturbance::Disturbance;
 use super::driver::Driver;
 use super::plant::Extremes;
-use super::run::{Ending, Looks, Tick, TickObserver};
+use super::run::{Ending, Looks, Tick, TickObserver, follow_fall};
 use super::{LoopFailure, LoopTask};
 use crate::ground_motion::Segment;
 use crate::scene::checks::ChecksTable;
@@ -23,13 +23,27 @@ use crate::simulation::run::Task;
 /// The coils of both clutches, as the controller drives them.
 struct Commanded {
     used: CoilUse,
+    /// Up to where |θ| last passed α; none below it.
+    fall: Option<CoilUse>,
+    overturned: bool,
     /// Of a tick, s.
     period: f64,
 }
 
+impl Commanded {
+    fn uses(&self) -> CoilUses {
+        CoilUses { whole: self.used, before_fall: self.fall.filter(|_| self.overturned).unwrap_or(self.used) }
+    }
+}
+
 impl TickObserver for Commanded {
     fn tick(&mut self, tick: &Tick) {
+        follow_fall(&mut self.fall, tick.beyond, || self.used);
         self.used.hold(tick.decision.command, self.period);
+    }
+
+    fn overturned(&mut self) {
+        self.overturned = true;
     }
 }
 
@@ -47,6 +61,7 @@ impl TickObserver for Both<'_> {
     }
 
     fn overturned(&mut self) {
+        self.0.overturned();
         self.1.overturned();
     }
 }
@@ -83,7 +98,7 @@ impl Segmented for Checked {
 
 impl LoopTask<'_> {
     fn coils(&self) -> Commanded {
-        Commanded { used: CoilUse::default(), period: self.clock().period }
+        Commanded { used: CoilUse::default(), fall: None, overturned: false, period: self.clock().period }
     }
 
     /// As [`LoopTask::run_with`], and says what its device asks for, which `table` wants to know.
@@ -98,7 +113,7 @@ impl LoopTask<'_> {
         let mut watched = Checked(Extremes::default(), task.checks(&task.loaded()?)?);
         let mut seen = Both(self.coils(), ticks);
         let ending = self.run_with(driver, disturbance, &mut watched, &mut seen)?;
-        let demand = Demand::of(&task, table, &watched.1, table.coil.map(|_| seen.0.used));
+        let demand = Demand::of(&task, table, &watched.1, table.coil.map(|_| seen.0.uses()));
         Ok((ending, watched.0, demand))
     }
 
@@ -115,7 +130,7 @@ impl LoopTask<'_> {
         let mut coils = self.coils();
         let mut driver = self.driver()?;
         let ending = self.run_with(&mut *driver, &mut (), &mut watchers, &mut coils)?;
-        watchers.asked.commanded(coils.used);
+        watchers.asked.commanded(coils.uses());
         let peaks = watchers.peaks;
         let mut found = Found::watched(&task, watchers);
         found.missed_engagements = ending.missed;

@@ -317,6 +317,30 @@ fn a_loop_says_what_its_checks_found() {
     assert!(report(&desk.unchecked()).summary.checks.is_none());
 }
 
+/// What a controller commands while the block falls is not counted, whoever looks.
+#[test]
+fn the_coils_of_a_loop_hold_up_to_the_fall() {
+    let mut desk = scene("engagement = 'ideal'", "motion = 'sine', amplitude_ratio = 4.0, frequency_ratio = 1.5");
+    desk.scene.file.checks = Some(ChecksTable {
+        coil: Some(CoilTable { holding_power_w: 10.0, closing_energy_j: 0.0, largest_energy_j: None }),
+        ..ChecksTable::default()
+    });
+    let interrupt = Interrupt::default();
+    let task = desk.task(0, 1, &interrupt);
+    let looped = task.looped::<Vec<Tick>>(&mut *task.driver().unwrap(), &mut ()).unwrap();
+    assert!(looped.outcome().overturned());
+    let held = |ticks: &[Tick]| -> f64 {
+        let commands = ticks.iter().flat_map(|tick| tick.decision.command).filter(|command| *command);
+        10.0 * task.clock().period * commands.count() as f64
+    };
+    let falls = looped.ticks.iter().rposition(|tick| !tick.beyond).unwrap() + 1;
+    let checks = looped.checks.unwrap();
+    let (before, whole) = (checks.coil_energy_j.unwrap(), checks.coil_energy_with_fall_j.unwrap());
+    assert!((before - held(&looped.ticks[..falls])).abs() < 1e-9 && before > 0.0, "{before}");
+    assert!((whole - held(&looped.ticks)).abs() < 1e-9 && whole > before, "{before} {whole}");
+    assert_eq!(task.measured().unwrap().checks.unwrap().coils, checks.coils);
+}
+
 /// The last bounces of a block that hardly lifts off ask of its toe what they ask where they are followed.
 #[test]
 fn the_checks_of_a_loop_count_the_last_bounces() {

@@ -5,10 +5,11 @@ use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
 use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::BlockState;
-use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::coil_use::CoilUses;
 use sprag_shared::observers::ledger::{Entries, Ledger};
 use sprag_shared::structure::Structure;
 
+use super::coils::Coils;
 use super::drive::Segmented;
 use super::energy::EnergyReport;
 use super::run::{Failure, Task};
@@ -18,7 +19,7 @@ use crate::ground_motion::Segment;
 #[derive(Debug)]
 pub struct Asked<S> {
     energy: Option<EnergyHistory<S>>,
-    coils: Option<CoilUse>,
+    coils: Option<Coils<S>>,
 }
 
 impl<S: Real> Asked<S> {
@@ -28,17 +29,20 @@ impl<S: Real> Asked<S> {
             EnergyHistory::new(Ledger::new(&loaded.block, task.scene.geometry(), &task.device().account(loaded)), task.interval)
         };
         let coils = task.scene.file.checks.as_ref().and_then(|checks| checks.coil_use(task.device(), loaded, task.carried()));
+        let coils = coils.map(|used| Coils::new(used, loaded.block.slenderness()));
         Ok(Asked { energy: task.scene.file.output.energy.then(energy), coils })
     }
 
     /// What a controller has commanded, in the place of what the clutches did.
-    pub(crate) fn commanded(&mut self, commanded: CoilUse) {
-        self.coils = self.coils.map(|_| commanded);
+    pub(crate) fn commanded(&mut self, commanded: CoilUses) {
+        if let Some(coils) = &mut self.coils {
+            coils.commanded = Some(commanded);
+        }
     }
 
-    /// What the coils took; none where nobody looked, and without a clutch that has one.
-    pub(super) fn coils(&self) -> Option<CoilUse> {
-        self.coils
+    /// What the coils did; none where nobody looked, and without a clutch that has one.
+    pub(super) fn coils(&self) -> Option<CoilUses> {
+        self.coils.as_ref().map(Coils::uses)
     }
 
     /// What the ledger found.

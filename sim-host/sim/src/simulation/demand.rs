@@ -3,7 +3,7 @@
 use serde::Serialize;
 use sprag_shared::math::scalar::Real;
 use sprag_shared::observers::checks::{Checks, Extreme, Report};
-use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::coil_use::{CoilUse, CoilUses};
 use sprag_shared::structure::Base;
 use sprag_shared::structure::block::{GRAVITY, Geometry};
 use sprag_shared::structure::device::DeviceKind;
@@ -35,7 +35,7 @@ pub struct Demand {
     /// Largest bending stress at the root of a tooth, each mesh from the rack on, MPa.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tooth_stress_mpa: Vec<f64>,
-    /// Energy that the coils of both clutches take until the end of the run or overturning, J; none without clutches that have coils.
+    /// Energy that the coils of both clutches take, J; none without clutches that have coils.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coil_energy_j: Option<f64>,
     /// The assumptions that fail, in words.
@@ -46,10 +46,13 @@ pub struct Demand {
     /// The largest of `tooth_stress_mpa`, with the fall of a block that overturns; 0 where the block never rocked, none without a gear.
     #[serde(skip)]
     pub tooth_stress_with_fall_mpa: Option<f64>,
+    /// As `coil_energy_j`, with the fall of a block that overturns.
+    #[serde(skip)]
+    pub coil_energy_with_fall_j: Option<f64>,
     /// The largest forces and the farthest travel with their times.
     #[serde(skip)]
     pub located: Located,
-    /// What the coils did, where the scene has one.
+    /// What the coils did, where the scene has one; the fall of a block that overturns left out.
     #[serde(skip)]
     pub coils: Option<CoilUse>,
 }
@@ -160,7 +163,7 @@ fn standing_friction(task: &Task<'_>, table: &ChecksTable) -> Option<f64> {
 
 impl Demand {
     /// Of what `checks` found about the device of `task`.
-    pub(crate) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUse>) -> Demand {
+    pub(crate) fn of<S: Real>(task: &Task<'_>, table: &ChecksTable, checks: &Checks<S>, coils: Option<CoilUses>) -> Demand {
         let (report, whole) = (checks.before_fall(), checks.report);
         // A look may miss the instants at which V ≤ 0, which the search for its smallest value finds.
         let lifted = report.vertical.filter(|vertical| vertical.value <= S::ZERO).map(|vertical| vertical.time);
@@ -174,6 +177,7 @@ impl Demand {
             let (gear, force) = table.gear.as_ref().zip(force)?;
             Some(tooth_stresses(gear, task.scene, task.index, force))
         };
+        let energy = |used: CoilUse| table.coil.as_ref().map(|coil| coil.energy_j(&used));
         let mut demand = Demand {
             friction_needed: number(&friction).or_else(|| standing_friction(task, table).filter(|_| contact_lost.is_none())),
             friction_needed_time_s: friction.map(|extreme| extreme.time.to_f64()),
@@ -182,12 +186,13 @@ impl Demand {
             force_ratio: support_force_ratio(task, &report),
             stroke_m: farthest(&report),
             tooth_stress_mpa: stresses(&report).unwrap_or_default(),
-            coil_energy_j: table.coil.as_ref().zip(coils).map(|(coil, used)| coil.energy_j(&used)),
+            coil_energy_j: coils.and_then(|coils| energy(coils.before_fall)),
             warnings: Vec::new(),
             stroke_with_fall_m: farthest(&whole),
             tooth_stress_with_fall_mpa: table.gear.map(|_| stresses(&whole).into_iter().flatten().fold(0.0, f64::max)),
+            coil_energy_with_fall_j: coils.and_then(|coils| energy(coils.whole)),
             located: Located::of(task, &report),
-            coils,
+            coils: coils.map(|coils| coils.before_fall),
         };
         demand.warn(task, table, &Impulses::of(&report));
         demand

@@ -123,6 +123,35 @@ fn coils_take_power_while_they_hold_and_energy_to_close() {
     }
 }
 
+/// The clutches of a block that lies down stay engaged for half a second beyond α, which no use of the coils can change any more.
+#[test]
+fn coils_hold_up_to_the_fall_of_a_block_that_overturns() {
+    let run = runs_of(
+        "block = { size_m = 2.0, slenderness_deg = 10.0, restitution = 0.85 }
+        device = [{ kind = 'clutched-pair', mass_ratio = 0.5 }]
+        ground = [{ motion = 'sine', amplitude_ratio = 2.5, frequency_ratio = 1.5 }]
+        run = { free_time_s = 5.0 }
+        output = { interval_s = 0.0005 }
+        checks = { coil = { holding_power_w = 50, largest_energy_j = 60 } }",
+    )
+    .remove(0);
+    assert!(run.outcome.overturned());
+    let checks = run.checks.unwrap();
+    let samples = &run.history.samples;
+    let held = |until: usize| -> f64 {
+        let pairs = samples[..until].windows(2).filter(|pair| pair[0].engaged != 0);
+        pairs.map(|pair| 50.0 * (pair[1].time_s - pair[0].time_s)).sum()
+    };
+    let falls = samples.iter().rposition(|sample| sample.rotation_rad.abs() <= run.history.slenderness_rad).unwrap();
+    let (before, whole) = (checks.coil_energy_j.unwrap(), checks.coil_energy_with_fall_j.unwrap());
+    for (energy, until) in [(before, falls + 1), (whole, samples.len())] {
+        assert!((energy / held(until) - 1.0).abs() < 1e-3, "{energy} {}", held(until));
+    }
+    assert!(whole > 2.0 * before, "{whole} {before}");
+    assert!((50.0 * checks.coils.unwrap().engaged_s - before).abs() < 1e-9);
+    assert!(!checks.warnings.iter().any(|warning| warning.contains("the coils take")), "{:?}", checks.warnings);
+}
+
 /// Bounces are infinitely many, and the threshold decides how many of them are followed.
 #[test]
 fn the_rest_threshold_does_not_show_in_what_clutches_do() {

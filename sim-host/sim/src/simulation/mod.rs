@@ -3,6 +3,8 @@
 #[cfg_attr(not(feature = "effects"), path = "unasked.rs")]
 mod asked;
 #[cfg(feature = "effects")]
+mod coils;
+#[cfg(feature = "effects")]
 mod compliant;
 #[cfg_attr(not(feature = "effects"), allow(dead_code, reason = "only effects demand anything"))]
 pub mod demand;

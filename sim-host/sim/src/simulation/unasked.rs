@@ -4,7 +4,7 @@ use std::marker::PhantomData;
 
 use sprag_shared::math::scalar::Real;
 use sprag_shared::motion::observer::Observer;
-use sprag_shared::observers::coil_use::CoilUse;
+use sprag_shared::observers::coil_use::CoilUses;
 use sprag_shared::structure::Structure;
 
 use super::drive::Segmented;
@@ -24,7 +24,7 @@ impl<S: Real> Asked<S> {
     }
 
     /// Nothing.
-    pub(super) fn coils(&self) -> Option<CoilUse> {
+    pub(super) fn coils(&self) -> Option<CoilUses> {
         None
     }
 

@@ -35,7 +35,7 @@ impl Response {
             force_ratio: run.peak_force_ratio.unwrap_or(0.0),
             stroke_m: checks.and_then(|checks| checks.stroke_with_fall_m).unwrap_or(0.0),
             tooth_stress_mpa: checks.and_then(|checks| checks.tooth_stress_with_fall_mpa),
-            coil_energy_j: checks.and_then(|checks| checks.coil_energy_j),
+            coil_energy_j: checks.and_then(|checks| checks.coil_energy_with_fall_j),
             error: run.error.map(|report| report.estimate),
         }
     }
