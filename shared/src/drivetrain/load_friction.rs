@@ -131,11 +131,12 @@ loaded!(Single<true>, 0, 0, |own, at, wheel| own.engage(at, wheel));
 loaded!(IdealPair<true>, 0, 1, |own, at, wheel| own.engage(at, wheel));
 loaded!(RigidPair, 2, 1, |_, at, wheel| at.jolt_under_load(wheel));
 
-/// [`account`], with the friction of the mesh in that of the rack.
+/// [`account`], with the friction of the mesh: the rack passes it on to the pinion, whose bearings are those of the flywheel.
 fn loaded_account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
     let mut account = account(at, acceleration, device);
-    let friction = at.parameters.load_share(device) * (account.force[0] + account.force[1]);
-    account.rack_force = account.rack_force + friction;
-    account.spent.rack = account.spent.rack + friction * at.body.to_terminal(&at.configuration, at.velocity);
+    let friction = account.force.map(|force| at.parameters.load_share(device) * force);
+    account.force = core::array::from_fn(|i| account.force[i & 1] + friction[i & 1]);
+    let rack = at.body.to_terminal(&at.configuration, at.velocity);
+    account.spent.rack = account.spent.rack + (friction[0] + friction[1]) * rack;
     account
 }

@@ -219,7 +219,7 @@ pub struct Spent<S> {
 /// Forces, speeds, energies and losses of a device at an instant ([`crate::motion::device_snapshot::Snapshot`]).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Account<S> {
-    /// Force of each flywheel on the rack, positive where it resists positive motion; F/(λmR), 1/s².
+    /// Force of each flywheel on the rack, with the friction of their mesh, positive where it resists positive motion; F/(λmR), 1/s².
     pub force: [S; 2],
     /// Friction and inertia of the rack itself, the same way; from a transmission, without the dry friction of a rack that stands.
     pub rack_force: S,

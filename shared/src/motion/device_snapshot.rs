@@ -23,7 +23,8 @@ pub struct Snapshot<S> {
 }
 
 impl<S: Real> Snapshot<S> {
-    /// F₁ + F₂, what both flywheels together press on their support; F/(λmR), 1/s². Friction of the rack's guides is not in it.
+    /// F₁ + F₂, what both flywheels together press on their support; F/(λmR), 1/s². Friction of the rack's guides is not in it,
+    /// that of its mesh is.
     pub fn support_force(&self) -> S {
         self.device.force[0] + self.device.force[1]
     }

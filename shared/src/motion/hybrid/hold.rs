@@ -122,20 +122,20 @@ impl<S: Real> HybridSystem<S> {
         };
         let (outward, inward) = (share(side), if state.motion.rotation == S::ZERO { S::ZERO } else { share(side.opposite()) });
         let (sign, share) = if inward > outward { (side.opposite(), inward) } else { (side, outward) };
+        // The mesh adds to what flywheels bear, or takes from it.
+        let loaded = S::ONE + parameters.load_share(&state.device);
         let mut forces = account.force;
         for (force, wheel) in forces.iter_mut().zip(&state.device.wheels) {
             match wheel.coupling {
-                Coupling::Locked => *force = *force - law.direction * (parameters.inertance * parameters.bearing_dry),
+                Coupling::Locked => *force = *force - law.direction * (loaded * (parameters.inertance * parameters.bearing_dry)),
                 Coupling::Slipping(_) if wheel.spin == S::ZERO => *force = S::ZERO,
                 _ => {}
             }
         }
         for (i, wheel) in self.carried_along(state, sign) {
             let force = &mut forces[i & 1];
-            *force = *force + sign.times(share * parameters.standing_friction(wheel).0);
+            *force = *force + sign.times(share * (loaded * parameters.standing_friction(wheel).0));
         }
-        let less = forces[0] + forces[1] - (account.force[0] + account.force[1]);
-        account.rack_force = account.rack_force + parameters.load_share(&state.device) * less;
         account.force = forces;
         sign.times(share)
     }

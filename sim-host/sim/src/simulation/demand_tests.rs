@@ -360,18 +360,22 @@ fn held(rotation_ratio: f64, device: &str, ground: &str, more: &str) -> DeviceRu
 /// While bearings hold a block the support takes tan δ + ü_g/g at the centre of mass, however many waves the ground has until it moves on.
 #[test]
 fn a_held_block_pushes_hardest_at_the_crest_of_any_wave() {
-    let device = "mass_ratio = 1\nflywheel = { dry_deceleration_m_s2 = 3 }";
-    for ground in [
-        "motion = 'sine'\namplitude_g = 0.28\nfrequency_hz = 0.5",
-        "motion = 'mavroeidis-papageorgiou'\nvelocity_amplitude_m_s = 0.25\nfrequency_hz = 1.3\noscillations = 90\nphase_deg = 30",
-        "motion = 'ricker'\namplitude_g = 0.28\nfrequency_hz = 3",
+    for (ground, mesh) in [
+        ("motion = 'sine'\namplitude_g = 0.28\nfrequency_hz = 0.5", 0.0),
+        ("motion = 'sine'\namplitude_g = 0.28\nfrequency_hz = 0.5", 0.5),
+        (
+            "motion = 'mavroeidis-papageorgiou'\nvelocity_amplitude_m_s = 0.25\nfrequency_hz = 1.3\noscillations = 90\nphase_deg = 30",
+            0.0,
+        ),
+        ("motion = 'ricker'\namplitude_g = 0.28\nfrequency_hz = 3", 0.5),
     ] {
+        let device = format!("mass_ratio = 1\nflywheel = {{ dry_deceleration_m_s2 = 3 }}\nrack = {{ load_friction = {mesh} }}");
         for more in ["", "[checks]"] {
-            let run = held(0.95, device, ground, more);
+            let run = held(0.95, &device, ground, more);
             let crest = run.history.samples.iter().map(|sample| sample.ground_m_s2).fold(0.0, f64::max);
             let expected = math::tan(0.05 * 10_f64.to_radians()) + crest / GRAVITY;
             let force = run.peak_force_ratio.unwrap();
-            assert!(force > expected - 1e-12 && force < expected + 2e-4, "{ground}, {more}: {force} {expected}");
+            assert!(force > expected - 1e-12 && force < expected + 2e-4, "{ground}, {mesh}, {more}: {force} {expected}");
         }
     }
 }
@@ -382,12 +386,13 @@ fn a_held_block_pushes_hardest_at_the_crest_of_any_wave() {
 fn a_held_block_needs_the_friction_of_its_tilt() {
     let ground = "motion = 'sine'\namplitude_g = 0.2\nfrequency_hz = 0.5";
     let expected = math::tan(0.1 * 10_f64.to_radians());
-    for (rack, bearings) in [(0.3, 0.0), (0.0, 30.0), (0.2, 10.0)] {
+    for (rack, bearings, mesh) in [(0.3, 0.0, 0.0), (0.0, 30.0, 0.0), (0.2, 10.0, 0.0), (0.2, 10.0, 0.5)] {
         let device = format!(
-            "mass_ratio = 0.1\nrack = {{ dry_friction_ratio = {rack} }}\nflywheel = {{ dry_deceleration_m_s2 = {bearings} }}"
+            "mass_ratio = 0.1\nrack = {{ dry_friction_ratio = {rack}, load_friction = {mesh} }}\n\
+             flywheel = {{ dry_deceleration_m_s2 = {bearings} }}"
         );
         let needed = held(0.9, &device, ground, "[checks]").checks.unwrap().friction_needed.unwrap();
-        assert!((needed - expected).abs() < 1e-9, "{rack}, {bearings}: {needed} {expected}");
+        assert!((needed - expected).abs() < 1e-9, "{rack}, {bearings}, {mesh}: {needed} {expected}");
     }
 }
 

@@ -6,7 +6,7 @@ use crate::ground::AnySegment;
 use crate::math::quadrature::integral;
 use crate::math::square_root;
 use crate::method::fixed::{FixedStep, Scheme};
-use crate::motion::device_snapshot::DeviceOutput;
+use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{MonotoneInterval, Observer};
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::structure::block::Geometry;
@@ -65,16 +65,62 @@ fn it_vanishes_with_its_coefficient() {
     }
 }
 
-/// ∫ μ|F||ẋ| dt.
+/// What the device must press on a slender block for its θ̈, p²(θ − sα − ü_g/g) − θ̈, is what both flywheels press on their support. It is 1 ± μ
+/// times the inertia of the flywheel that is locked.
+#[test]
+fn the_support_bears_what_the_moment_balance_needs() {
+    struct Balance {
+        p2: f64,
+        alpha: f64,
+        inertance: f64,
+        mu: f64,
+        driven: u32,
+        drives: u32,
+    }
+    impl Observer<f64> for Balance {
+        fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
+            for share in [0.1, 0.5, 0.9] {
+                let snapshot = output.snapshot(interval.from + share * (interval.to - interval.from));
+                let Snapshot { motion, ground, device, .. } = snapshot;
+                let push = motion.rotation - interval.side.times(self.alpha) - ground[0];
+                let (needed, force) = (self.p2 * push - motion.acceleration, snapshot.support_force());
+                assert!((force - needed).abs() < 1e-9 * self.p2, "{force} {needed}");
+                let own = self.inertance * motion.acceleration;
+                if device.engaged != [false; 2] && own.abs() > 1e-3 * self.p2 {
+                    let drives = own * motion.velocity < 0.0;
+                    let expected = if drives { 1.0 - self.mu } else { 1.0 + self.mu };
+                    assert!((force / own - expected).abs() < 1e-12, "{force} {own}");
+                    let count = if drives { &mut self.drives } else { &mut self.driven };
+                    *count += 1;
+                }
+            }
+        }
+    }
+    for kind in [DeviceKind::Inerter, DeviceKind::ClutchedPair] {
+        let shake = of(kind, Geometry::Slender, KinematicsKind::Paper);
+        let block = &shake.structure.block;
+        let (p2, alpha, inertance) = (block.frequency_parameter_squared(), block.slenderness(), SIGMA / block.inertia_ratio());
+        let mut balance = Balance { p2, alpha, inertance, mu: 0.3, driven: 0, drives: 0 };
+        shake.watched(&loaded(0.3), &tight(), &mut balance);
+        let Balance { driven, drives, .. } = balance;
+        assert!(driven > 10 && (drives > 10) == (kind == DeviceKind::Inerter), "{kind:?}: {driven} {drives}");
+    }
+}
+
+/// ∫ μ|F||ẋ| dt, F the force of the flywheels without what the mesh adds or takes.
 #[derive(Default)]
 struct Mesh(f64);
+
+impl Mesh {
+    const FRICTION: f64 = 0.2;
+}
 
 impl Observer<f64> for Mesh {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         let power = |time: f64| {
             let snapshot = output.snapshot(time);
-            let force: f64 = snapshot.device.force.iter().map(|force| force.abs()).sum();
-            [force * snapshot.terminal_velocity.abs()]
+            let power = snapshot.device.force.map(|force| force * snapshot.terminal_velocity);
+            [power.map(|power| power.abs() * Mesh::FRICTION / (1.0 + Mesh::FRICTION * power.signum())).iter().sum()]
         };
         self.0 += integral(interval.from, interval.to, 0.1, power)[0];
     }
@@ -86,12 +132,12 @@ fn the_rack_loses_the_friction_of_the_mesh_and_the_ledger_closes() {
     for (kind, clutching) in [(DeviceKind::Inerter, Clutching::Permanent), (DeviceKind::ClutchedPair, Clutching::Ideal)] {
         for kinematics in [KinematicsKind::Paper, KinematicsKind::Consistent] {
             for flywheel in [FlywheelLosses::default(), flywheel] {
-                let drivetrain = Drivetrain { flywheel, ..loaded(0.2) };
+                let drivetrain = Drivetrain { flywheel, ..loaded(Mesh::FRICTION) };
                 let shake = of(kind, Geometry::Full, kinematics);
                 let account = Account { clutching, mass_ratio: SIGMA, ..Account::default() };
                 let mut watchers = (Ledger::new(&shake.structure.block, Geometry::Full, &account), Mesh::default());
                 let series = shake.watched(&drivetrain, &tight(), &mut watchers);
-                let (entries, mesh) = (watchers.0.entries, 0.2 * watchers.1.0);
+                let (entries, mesh) = (watchers.0.entries, watchers.1.0);
                 let what = std::format!("{kind:?} {kinematics:?}: {entries:?}");
                 assert!(entries.residual().abs() < 1e-10 * entries.input, "{what}");
                 assert!(entries.rack > 0.0 && (entries.rack / mesh - 1.0).abs() < 1e-10, "{what}: {mesh}");
