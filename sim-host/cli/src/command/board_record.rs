@@ -34,7 +34,7 @@ use crate::board::recordings::{self, Part, PartNumbers, Parts, Recording};
 pub struct RecordArguments {
     #[command(flatten)]
     line: LineArguments,
-    /// The earthquake of this number; the newest without.
+    /// The earthquake of this number; without, the newest is saved or drawn, and all are listed.
     #[arg(long, value_name = "N")]
     earthquake: Option<u16>,
     /// This part of it only.
@@ -78,8 +78,8 @@ struct RecordingRow {
 }
 
 impl RecordingsDocument {
-    fn new(state: &RecorderState, parts: &Parts, period: f64) -> RecordingsDocument {
-        let row = |(&(earthquake, part), of): (&PartNumbers, &Part)| {
+    fn new(state: &RecorderState, parts: &[(PartNumbers, &Part)], period: f64) -> RecordingsDocument {
+        let row = |&((earthquake, part), of): &(PartNumbers, &Part)| {
             let (_, header) = of.pages.first()?;
             Some(RecordingRow {
                 earthquake,
@@ -131,8 +131,9 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
         }
         let parts = recordings::list(session)?;
         if files.is_empty() {
+            let listed = listed(given, &parts)?;
             let period = f64::from(parameters::read(session)?.period());
-            let document = RecordingsDocument::new(&recordings::state(session)?, &parts, period);
+            let document = RecordingsDocument::new(&recordings::state(session)?, &listed, period);
             return if given.json.json { print_json(&document, out) } else { document.show(out) };
         }
         let recordings = chosen(given, &parts)?
@@ -147,7 +148,15 @@ pub fn run(given: &RecordArguments, out: &mut impl Write, interrupt: &Interrupt)
     })
 }
 
-/// Parts that are asked for.
+/// Parts that are listed: those that are asked for, or all.
+fn listed<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(PartNumbers, &'a Part)>> {
+    match (given.earthquake, given.part) {
+        (None, None) => Ok(parts.iter().map(|(key, part)| (*key, part)).collect()),
+        _ => chosen(given, parts),
+    }
+}
+
+/// Parts that are saved or drawn.
 fn chosen<'a>(given: &RecordArguments, parts: &'a Parts) -> anyhow::Result<Vec<(PartNumbers, &'a Part)>> {
     let Some(newest) = parts.iter().max_by_key(|(_, part)| part.pages.last().map(|(_, header)| header.sequence)) else {
         return Err(anyhow!("it has recorded no earthquake"));
@@ -255,4 +264,31 @@ fn erase(session: &mut Talk, out: &mut impl Write, interrupt: &Interrupt) -> any
         _ => return Err(anyhow!("not all is erased: something began to move; ask again at rest")),
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        record: RecordArguments,
+    }
+
+    #[test]
+    fn a_list_is_of_what_is_asked_for() {
+        let parts: Parts = [((1, 1), Part::default()), ((2, 1), Part::default()), ((2, 2), Part::default())].into();
+        let listed = |options: &[&str]| {
+            let given = Line::parse_from([&["record", "--qemu"], options].concat()).record;
+            listed(&given, &parts).map(|parts| parts.iter().map(|(numbers, _)| *numbers).collect::<Vec<_>>())
+        };
+        assert_eq!(listed(&[]).unwrap(), [(1, 1), (2, 1), (2, 2)]);
+        assert_eq!(listed(&["--earthquake", "2"]).unwrap(), [(2, 1), (2, 2)]);
+        assert_eq!(listed(&["--earthquake", "2", "--part", "2"]).unwrap(), [(2, 2)]);
+        let error = listed(&["--earthquake", "3"]).unwrap_err().to_string();
+        assert_eq!(error, "it has no recording of an earthquake 3; it has 1, 2");
+    }
 }
