@@ -54,6 +54,8 @@ pub struct Checks<S> {
     on_support: bool,
     /// Open clutches pass forces too.
     drags: bool,
+    /// Clutches are elastic.
+    springs: bool,
     /// The first quantity that is looked at.
     first: usize,
     /// The travel of the terminals is looked at.
@@ -78,6 +80,7 @@ impl<S: Real> Checks<S> {
             impulses: Impulses::new(S::of(COUNTED_SPEED * speed)),
             on_support: account.on_support,
             drags: account.drags,
+            springs: account.springs,
             first: 0,
             travels: true,
         })
@@ -213,6 +216,15 @@ impl<S: Real> Checks<S> {
         }
         if self.first >= FORCES {
             return;
+        }
+        if self.springs {
+            let speed = |t: S| {
+                let [first, second] = output.snapshot(t).device.spin;
+                self.toe.size * first.abs().larger(second.abs())
+            };
+            let speeds = core::array::from_fn(|i| speed(instant(span, i)));
+            let (time, value) = largest(span, &speeds, self.report.flywheel_speed.map(|known| known.value), speed);
+            Extreme::raise(&mut self.report.flywheel_speed, value, start + time);
         }
         if self.report.contact_lost.is_none()
             && let Some(lost) = (0..LOOKS).find(|&i| looks[1][i] >= S::ZERO)

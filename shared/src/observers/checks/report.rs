@@ -46,6 +46,8 @@ pub struct Report<S> {
     pub force: [Option<Extreme<S>>; 2],
     /// Largest |F₁ + F₂|/(mg): what both together press on their support.
     pub support: Option<Extreme<S>>,
+    /// Largest speed of a flywheel as that of a rack that turns it, m/s; looked for behind elastic clutches, where it is not the rack's own.
+    pub flywheel_speed: Option<Extreme<S>>,
     /// Farthest travel of the terminals in the positive and in the negative direction, both positive, m.
     pub travel: [Option<Extreme<S>>; 2],
 }

@@ -58,6 +58,8 @@ pub struct Account {
     pub on_support: bool,
     /// Open clutches drag, so that they pass forces too.
     pub drags: bool,
+    /// Clutches are elastic: a spring may throw its flywheel beyond the speed of the rack.
+    pub springs: bool,
 }
 
 /// Observer that sums the [`Entries`] of a motion.

@@ -96,6 +96,7 @@ impl SceneDevice {
                 .map_or(0.0, |n| (1.0 - n) * (self.drivetrain.support.amplification - 1.0)),
             on_support: self.drivetrain.support.moves(),
             drags: self.drivetrain.flywheel.drag_rate > 0.0,
+            springs: matches!(self.drivetrain.engagement, Engagement::Elastic { .. }),
         }
     }
 }

@@ -49,7 +49,7 @@ pub struct Demand {
     /// As `coil_energy_j`, with the fall of a block that overturns.
     #[serde(skip)]
     pub coil_energy_with_fall_j: Option<f64>,
-    /// The largest forces and the farthest travel with their times.
+    /// The largest forces, speed of a flywheel and farthest travel with their times.
     #[serde(skip)]
     pub located: Located,
     /// What the coils did, where the scene has one; the fall of a block that overturns left out.
@@ -64,6 +64,9 @@ pub struct Located {
     pub support: Option<Extreme<f64>>,
     /// Largest |F|/(mg) of one flywheel at the rack.
     pub drive: Option<Extreme<f64>>,
+    /// Largest speed of a flywheel behind an elastic clutch, as that of a rack that turns it, m/s; none behind others, where it is the rack's at
+    /// most.
+    pub flywheel_speed: Option<Extreme<f64>>,
     /// Farthest travel of the terminals to one side, m.
     pub stroke: Option<Extreme<f64>>,
 }
@@ -114,6 +117,7 @@ impl Located {
         Located {
             support: report.support.map(force),
             drive: report.largest_force().map(force),
+            flywheel_speed: report.flywheel_speed.map(|extreme| times(1.0, extreme)),
             stroke: report.stroke().map(|extreme| times(1.0, extreme)),
         }
     }

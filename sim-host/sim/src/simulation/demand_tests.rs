@@ -98,6 +98,29 @@ fn a_spring_passes_no_more_than_its_plates() {
     }
 }
 
+/// A flywheel behind a spring that closes late passes the rack. Its speed is what its force has done to it, ∫ F g/(σ mg) dt since it was at rest.
+#[test]
+fn a_flywheel_behind_a_spring_has_a_speed_of_its_own() {
+    let device = "kind = 'clutched-pair'\nclutch = { stiffness_ratio = 1000, damping_ratio = 0.02 }
+        flywheel = { brake_deceleration_m_s2 = 'instant' }\nactuation = { engagement_delay_s = 0.1 }";
+    let run = runs(5.0, device, "[output]\ninterval_s = 0.0002\n[checks]").remove(0);
+    let samples = &run.history.samples;
+    let largest = [0, 1].map(|wheel| {
+        let (mut speed, mut largest) = (0.0, 0.0_f64);
+        for pair in samples.windows(2) {
+            let engaged = pair.iter().all(|sample| sample.engaged & (1 << wheel) != 0);
+            let force = 0.5 * (pair[0].force_ratio[wheel] + pair[1].force_ratio[wheel]);
+            speed = if engaged { speed + force * GRAVITY / 0.5 * (pair[1].time_s - pair[0].time_s) } else { 0.0 };
+            largest = largest.max(speed.abs());
+        }
+        largest
+    });
+    let expected = largest[0].max(largest[1]);
+    let found = run.checks.unwrap().located.flywheel_speed.unwrap().value;
+    let rack = samples.iter().map(|sample| 2.0 * sample.velocity_rad_s.abs()).fold(0.0, f64::max);
+    assert!((found / expected - 1.0).abs() < 1e-3 && found > 1.3 * rack, "{found} {expected} {rack}");
+}
+
 /// Holding power times the time for which histories show a clutch engaged, and an energy for each time that one closes.
 #[test]
 fn coils_take_power_while_they_hold_and_energy_to_close() {

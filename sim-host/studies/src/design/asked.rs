@@ -20,7 +20,7 @@ pub struct Asked {
     pub outcome: Outcome,
     /// max |θ|/α; `None` when overturned.
     pub peak_rotation: Option<f64>,
-    /// |F|/(mg) on the support and of one flywheel, and travel, m.
+    /// |F|/(mg) on the support and of one flywheel, speed of one behind a spring, m/s, and travel, m.
     pub located: Located,
     /// Speed of the rack, m/s.
     pub rack_speed: Extreme<f64>,
@@ -104,6 +104,11 @@ impl Asked {
             contact_lost,
             error: run.error.map(|report| report.estimate),
         }
+    }
+
+    /// Largest speed of a flywheel as that of a rack that turns it, m/s: the rack's own, but behind a spring.
+    pub fn flywheel_speed(&self) -> Extreme<f64> {
+        self.located.flywheel_speed.unwrap_or(self.rack_speed)
     }
 
     /// What an accelerometer on block or ground reads at most, m/s².

@@ -29,17 +29,17 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Of the inertance `inertance_kg` behind a pinion of `pinion_radius_m`, whose rack moves by up to `rack_speed_m_s`.
+    /// Of the inertance `inertance_kg` behind a pinion of `pinion_radius_m`, which turns as fast as a rack of `speed_m_s` turns it.
     ///
     /// m_r = ½ m_w R²/ρ² (Eq. 9 of Thiers-Moggia and Málaga-Chuquitaype 2019, one flywheel), so J = ½ m_w R² = m_r ρ². The
     /// diameter is the smallest of R20 at which m_w = ρ_s π R² t is no thicker than t = 0.2 R; the thickness makes J exact.
-    pub fn new(inertance_kg: f64, pinion_radius_m: f64, rack_speed_m_s: f64) -> Disc {
+    pub fn new(inertance_kg: f64, pinion_radius_m: f64, speed_m_s: f64) -> Disc {
         let inertia = inertance_kg * pinion_radius_m * pinion_radius_m;
         let mass_of = |radius: f64| 2.0 * inertia / (radius * radius);
         let thickness = |radius: f64| mass_of(radius) / (STEEL_KG_M3 * PI * radius * radius);
         let diameter = preferred_where(&R20, |diameter| thickness(0.5 * diameter) <= DISC_THICKNESS_RATIO * 0.5 * diameter);
         let radius = 0.5 * diameter;
-        let spin = rack_speed_m_s / pinion_radius_m;
+        let spin = speed_m_s / pinion_radius_m;
         let rim_speed = spin * radius;
         Disc {
             inertia_kg_m2: inertia,

@@ -245,7 +245,8 @@ fn limits(problem: &Problem<'_>, findings: &Findings) -> String {
         limit(format!("A pinion of {} teeth is undercut: it needs a profile shift.", problem.basis.teeth));
     }
     limit("Teeth are checked for bending alone: not for pitting, speed, shafts, keys and bearings, nor the rack's guides. The inertia of pinion, shaft and clutch is left out.".to_owned());
-    let is_heated = |list: &&PartsList| list.pinion.clutch_torque_n_m.is_some() && !list.on_support;
+    let has_springs = |list: &PartsList| list.asked.iter().flatten().any(|asked| asked.located.flywheel_speed.is_some());
+    let is_heated = |list: &&PartsList| list.pinion.clutch_torque_n_m.is_some() && !list.on_support && !has_springs(list);
     let heat = findings.lists.iter().filter(is_heated).map(|list| list.flywheel.energy_j);
     let heat = heat.reduce(f64::max).map_or_else(String::new, |heat| {
         format!(" A closing that brings a flywheel to its largest speed makes {} J of heat.", figures(heat))

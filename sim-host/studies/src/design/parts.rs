@@ -91,8 +91,8 @@ pub struct Sizing<'a> {
     pub pinion: &'a Pinion,
     /// The flywheel.
     pub disc: &'a Disc,
-    /// Largest speed of the rack, m/s.
-    pub rack_speed: Option<&'a Largest>,
+    /// Largest speed of a flywheel as that of a rack that turns it, m/s.
+    pub flywheel_speed: Option<&'a Largest>,
     /// The delay allowed, of clutches that take commands.
     pub allowed: Option<&'a Allowed>,
     /// Whether a controller drives them, so that its sensors were in the runs.
@@ -177,7 +177,7 @@ impl Sizing<'_> {
         list.follows(flywheel, "diameter", "m", Some(disc.diameter_m));
         list.follows(flywheel, "thickness", "m", Some(disc.thickness_m));
         list.follows(flywheel, "mass", "kg", Some(disc.mass_kg));
-        let of_speed = |value: f64| self.rack_speed.map(|speed| Largest { value, ..speed.clone() });
+        let of_speed = |value: f64| self.flywheel_speed.map(|speed| Largest { value, ..speed.clone() });
         list.sized(flywheel, "speed", "rev/min", of_speed(disc.speed_rev_min).as_ref(), None);
         list.sized(flywheel, "energy", "J", of_speed(disc.energy_j).as_ref(), None);
         let rim = of_speed(disc.rim_stress_mpa);

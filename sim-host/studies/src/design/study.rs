@@ -221,10 +221,10 @@ impl<'a> Problem<'a> {
         for (what, reason) in [("the delay allowed", &delay_unknown), ("the chosen clutches", &built_unknown)] {
             findings.left_out.extend(reason.as_ref().map(|reason| format!("{device}: {what}: {reason}")));
         }
-        let rack_speed = largest(motions, &asked, |asked| Some(asked.rack_speed));
-        let rack_speed = rack_speed.map(|speed| speed.or_larger(built.as_ref().and_then(|built| built.rack_speed_m_s.as_ref())));
+        let speed = largest(motions, &asked, |asked| Some(asked.flywheel_speed()));
+        let speed = speed.map(|speed| speed.or_larger(built.as_ref().and_then(|built| built.rack_speed_m_s.as_ref())));
         let inertance_kg = scene.devices[index].device.mass_ratio * self.mass_kg;
-        let disc = Disc::new(inertance_kg, chosen.radius_m, rack_speed.as_ref().map_or(0.0, |speed| speed.value));
+        let disc = Disc::new(inertance_kg, chosen.radius_m, speed.as_ref().map_or(0.0, |speed| speed.value));
         let on_support = scene.file.device[index].support_key().is_some();
         let clutch = scene.file.device[index].clutch.as_ref();
         let scene_capacity_n = clutch.and_then(|clutch| clutch.capacity_n.or(clutch.capacity_ratio.map(|ratio| ratio * weight)));
@@ -236,7 +236,7 @@ impl<'a> Problem<'a> {
             mass_kg: self.mass_kg,
             pinion: &chosen,
             disc: &disc,
-            rack_speed: rack_speed.as_ref(),
+            flywheel_speed: speed.as_ref(),
             allowed: delay.as_ref(),
             controlled: bare.is_controlled(),
             built: built.as_ref(),

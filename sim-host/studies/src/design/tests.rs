@@ -114,6 +114,21 @@ fn no_rack_is_chosen_on_a_support_of_its_own_motion() {
     assert!(!list.on_support && !page.contains("support of its own motion"), "{page}");
 }
 
+/// Behind a rack of the constant speed v it would reach 2v: ẇ = ω²(vt − ∫w dt) gives w = v(1 − cos ωt), and up to four times the energy.
+#[test]
+fn a_spring_throws_its_flywheel_beyond_the_rack() {
+    let energy = |clutch: &str| {
+        let late = "flywheel = { brake_deceleration_m_s2 = 'instant' }, actuation = { engagement_delay_s = 0.15 }";
+        let (list, page) = designed(&pier("clutched-pair", &format!("{late}, {clutch}"), &[]));
+        let rack = list.asked[0].unwrap().rack_speed.value;
+        assert_eq!(page.contains("J of heat"), clutch.contains("capacity"), "{page}");
+        list.flywheel.energy_j / (0.5 * list.inertance_kg * rack * rack)
+    };
+    let thrown = energy("clutch = { stiffness_ratio = 3000, damping_ratio = 0.02 }");
+    assert!((1.5..4.0).contains(&thrown), "{thrown}");
+    assert!((energy("clutch = { capacity_ratio = 10 }") - 1.0).abs() < 1e-12);
+}
+
 /// Plates that are late and slip let the block move otherwise than ideal clutches: sensors and coils have to do for both.
 #[test]
 fn sensors_and_coils_are_those_of_both_runs() {
