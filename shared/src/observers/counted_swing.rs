@@ -1,10 +1,11 @@
-//! Swings whose clutch switches count: as with impacts, those of a dying motion are infinitely many, and the rest threshold decides how many of
-//! them are followed.
+//! Swings in which what clutches do counts: as with impacts, those of a dying motion are infinitely many, and the rest threshold decides how many
+//! of them are followed.
 
 use crate::math::scalar::Real;
 use crate::motion::observer::Event;
 use crate::motion::state::BlockState;
-use crate::structure::{COUNTED_SPEED, Structure};
+use crate::structure::COUNTED_SPEED;
+use crate::structure::block::Block;
 
 /// Which clutches are engaged, as a number: 0 none, 1 the first, 2 the second, 3 both.
 pub fn clutches(engaged: [bool; 2]) -> u8 {
@@ -20,9 +21,8 @@ pub struct CountedSwing {
 }
 
 impl CountedSwing {
-    /// Of the block with what it carries.
-    pub fn of(loaded: &Structure) -> CountedSwing {
-        let block = &loaded.block;
+    /// Of `block` with what it carries.
+    pub fn of(block: &Block) -> CountedSwing {
         CountedSwing { speed: COUNTED_SPEED * block.frequency_parameter() * block.slenderness(), weak: false }
     }
 
@@ -38,6 +38,11 @@ impl CountedSwing {
             Event::Uplift | Event::Rest => self.weak = false,
             Event::Turn | Event::Switch | Event::Coupling | Event::Slip | Event::Overturned => {}
         }
+    }
+
+    /// Whether it does not count.
+    pub fn is_weak(&self) -> bool {
+        self.weak
     }
 
     /// The flywheels (a bit each) that count as engaged from now on, where `before` did until now and `engaged` are: a swing that does not count

@@ -28,6 +28,9 @@ impl Model {
         let followed = if self.follows_terminals() { Some(state.terminals) } else { state.direction() };
         let speed = state.velocity().abs().max(state.rotation().abs() * self.block.frequency_parameter());
         state.weak &= speed <= self.counted;
+        if !state.weak {
+            state.wheels.iter_mut().for_each(|wheel| wheel.lent = 0.0);
+        }
         if let Some(direction) = followed {
             let resists = state.drive == direction;
             for i in 0..2 {
@@ -69,7 +72,9 @@ impl Model {
             Coupling::Ideal => {
                 state.wheels[i].link = Link::Locked;
                 self.follow_rack(state);
-                state.values[CREATED] += energy(self, state) - before;
+                let created = energy(self, state) - before;
+                state.values[CREATED] += created;
+                state.wheels[i].lent = if state.weak { created } else { 0.0 };
             }
             Coupling::Plates => state.wheels[i].link = Link::Slipping((self.rack_now(state) - state.spin(i)).signum()),
             Coupling::Elastic { half_play, .. } => {
@@ -139,15 +144,22 @@ impl Model {
         if self.device.coupling == Coupling::Ideal || self.device.brake.is_infinite() {
             let before = energy(self, state);
             state.values[SPIN + i] = 0.0;
-            state.values[BRAKE] += before - energy(self, state);
+            let gone = before - energy(self, state);
+            let lent = std::mem::take(&mut state.wheels[i].lent).min(gone);
+            state.values[CREATED] -= lent;
+            state.values[BRAKE] += gone - lent;
         }
     }
 
     /// The clutches of a standing block are open and not commanded, but for those that follow the terminals.
     pub fn part_at_rest(&self, state: &mut State) {
-        if self.follows_terminals() {
-            return;
+        if !self.follows_terminals() {
+            self.part(state);
         }
+    }
+
+    /// Opens the clutches, and withdraws their commands.
+    pub fn part(&self, state: &mut State) {
         for i in 0..2 {
             if self.device.is_commanded() {
                 let command = &mut state.wheels[i].command;

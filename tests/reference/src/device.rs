@@ -92,6 +92,11 @@ impl Device {
         )
     }
 
+    /// Its clutches move later than they are commanded.
+    pub fn is_late(&self) -> bool {
+        self.engagement_delay.max(self.release_delay).max(self.dwell) > 0.0
+    }
+
     /// Start and end of the line by which a capacity rises so long after engagement, each with its share.
     pub fn line(&self, since: f64) -> Option<[(f64, f64); 2]> {
         self.rise.windows(2).find(|line| since < line[1].0 * (1.0 - 1e-12)).map(|line| [line[0], line[1]])

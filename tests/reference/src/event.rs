@@ -108,9 +108,16 @@ impl Model {
             self.take_terminals(&mut rest);
             rest.block = BlockMode::Standing;
             self.part_at_rest(&mut rest);
+            let mut parted = rest.clone();
             self.settle(&mut rest, shaking);
             if rest.block == BlockMode::Standing {
                 *state = rest;
+                if self.follows_terminals() && !self.device.is_late() {
+                    // Within the bounces before rest they have let go.
+                    self.part(&mut parted);
+                    self.settle(&mut parted, shaking);
+                    *state = parted;
+                }
                 return taken;
             }
         }

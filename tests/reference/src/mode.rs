@@ -52,6 +52,8 @@ pub struct Wheel {
     pub turning: Option<f64>,
     /// Command and clocks of its clutch.
     pub command: Command,
+    /// Created by its clutch in a swing that does not count, while it does not and the clutch holds, 1/s².
+    pub lent: f64,
 }
 
 /// Everything at an instant.

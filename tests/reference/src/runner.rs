@@ -42,7 +42,7 @@ impl<'a> Runner<'a> {
             Coupling::Slip { permanent: true, .. } => Link::Dragged,
             _ => Link::Open,
         };
-        let wheel = Wheel { link, turning: None, command: Command::default() };
+        let wheel = Wheel { link, turning: None, command: Command::default(), lent: 0.0 };
         let mut other = wheel;
         other.link = Link::Open;
         let mut values = [0.0; SIZE];

@@ -137,7 +137,7 @@ fn checks(structure: &Structure, all: bool) -> Checks<f64> {
 }
 
 fn coils(structure: &Structure) -> CoilUse {
-    CoilUse::of(false, CountedSwing::of(structure))
+    CoilUse::of(false, CountedSwing::of(&structure.block))
 }
 
 /// A motion of the ground, for lanes and for the core.

@@ -103,6 +103,10 @@ impl<S: Real> HybridSystem<S> {
         state.motion.impacts += tail.impacts;
         state.device.engagements += tail.closings;
         observer.event(Event::Rest, ends, &state.motion);
+        if self.follows_swings() {
+            // Whichever side the last impact that was followed left them on, they have let go since.
+            self.open_clutches(state, ends, observer);
+        }
         // What its clutches let go shows at once, and what coasts until then after it.
         self.show_instant(state, time, observer);
         self.drive_at_rest(state, shaking, (time, ends), observer);
@@ -193,11 +197,12 @@ impl<S: Real> HybridSystem<S> {
         if tail.acceleration > S::ZERO {
             tail.acceleration = tail.acceleration.larger(starts.abs());
         }
-        let follow = self.transmission.traits().commanded
-            && !self.is_carried(standing)
-            && !self.actuator.controlled
-            && !self.actuator.is_late();
-        if follow { tail } else { tail.without_closings() }
+        if self.follows_swings() && !self.is_carried(standing) { tail } else { tail.without_closings() }
+    }
+
+    /// Whether its clutches follow every swing, however short it is.
+    fn follows_swings(&self) -> bool {
+        self.transmission.traits().commanded && !self.actuator.controlled && !self.actuator.is_late()
     }
 
     /// A way of such impacts: |θ̈| (rad/s²; inward, 0 where friction holds the block at the top), θ̈ towards the base as it begins, and block and

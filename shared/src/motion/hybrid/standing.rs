@@ -41,6 +41,11 @@ impl<S: Real> HybridSystem<S> {
         if self.actuator.controlled || state.device.terminals.is_some() {
             return;
         }
+        self.open_clutches(state, time, observer);
+    }
+
+    /// Opens the clutches, and withdraws their commands.
+    pub(super) fn open_clutches(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         self.with_instant(state, time, observer, |_, at| {
             for wheel in 0..2 {
                 if at.device.wheels[wheel].coupling.is_engaged() {

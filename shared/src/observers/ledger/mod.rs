@@ -12,6 +12,9 @@
 //! flywheels on the rack, and z the speed of a support that moves otherwise than the ground ([`crate::drivetrain::on_support`]), against
 //! which they turn. Energies are relative to the ground (Uang and Bertero 1990).
 //!
+//! On such a support each bounce of a dying motion engages a flywheel at the speed of the support, and lets it go to its brake, however small the
+//! bounce is. As with impacts only those down to a certain speed count: what a clutch creates in a slower one goes back as it lets go.
+//!
 //! slender: sin δ → δ, cos δ → 1, potential = p² (α|θ| − ½θ²). Powers are integrated along every interval by Gauss-Legendre
 //! quadrature, with an error far below rounding on a series; what jumps at an event goes to what caused it. No entry is
 //! worked out from the others, so the residual measures all of them.
@@ -26,6 +29,7 @@ use crate::math::sign::Sign;
 use crate::motion::device_snapshot::{DeviceOutput, Snapshot};
 use crate::motion::observer::{Event, MonotoneInterval, Observer};
 use crate::motion::state::BlockState;
+use crate::observers::counted_swing::CountedSwing;
 use crate::structure::block::{Block, Geometry};
 
 /// Rule for a flywheel's energy at an event, by clutch.
@@ -80,6 +84,9 @@ pub struct Ledger<S> {
     pub barrier: S,
     last: Option<Balance<S>>,
     since: Since,
+    swing: CountedSwing,
+    /// Created for each flywheel in a swing that does not count, while it does not and the clutch holds.
+    lent: [S; 2],
 }
 
 /// Energies at an instant.
@@ -143,6 +150,8 @@ impl<S: Real> Ledger<S> {
             barrier: S::ZERO,
             last: None,
             since: Since::default(),
+            swing: CountedSwing::of(block),
+            lent: [S::ZERO; 2],
         };
         ledger.barrier = ledger.potential(Sign::Positive, ledger.slenderness);
         ledger
@@ -201,12 +210,13 @@ impl<S: Real> Ledger<S> {
         let (through_impacts, on_support, coupling) = (self.passes_impacts(), self.on_support, self.coupling);
         let entries = &mut self.entries;
         for i in 0..2 {
-            let lost = before.flywheel[i] - after.flywheel[i];
+            let mut lost = before.flywheel[i] - after.flywheel[i];
             let holds = after.engaged[i] || (stood && !on_support);
             let stops_with_the_block = through_impacts && before.locked[i] && (impact || stood) && holds;
             let entry = match (before.engaged[i], after.engaged[i]) {
                 (false, true) if self.clutching == Clutching::Ideal => {
                     entries.created = entries.created - lost;
+                    self.lent[i] = -lost;
                     continue;
                 }
                 _ if stops_with_the_block => {
@@ -217,7 +227,11 @@ impl<S: Real> Ledger<S> {
                     }
                     &mut entries.impact
                 }
-                (true, false) if after.flywheel[i] == S::ZERO => &mut entries.brake,
+                (true, false) if after.flywheel[i] == S::ZERO => {
+                    let lent = core::mem::take(&mut self.lent[i]).smaller(lost);
+                    (entries.created, lost) = (entries.created - lent, lost - lent);
+                    &mut entries.brake
+                }
                 _ => &mut entries.clutch,
             };
             *entry = *entry + lost;
@@ -262,12 +276,16 @@ impl<S: Real> Ledger<S> {
 
 impl<S: Real> Observer<S> for Ledger<S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+        self.swing.reaches(interval.fastest().to_f64());
         let first = self.balance(interval.side, &output.snapshot(interval.from));
         match self.last {
             None => self.entries.initial = first.kinetic + first.potential + first.stored(),
             Some(last) => self.attribute(&last, &first),
         }
         self.since = Since::default();
+        if !self.swing.is_weak() {
+            self.lent = [S::ZERO; 2];
+        }
         let sums = integral(interval.from, interval.to, S::HALF / self.frequency, |time| {
             let snapshot = output.snapshot(time);
             let spent = &snapshot.device.spent;
@@ -286,6 +304,7 @@ impl<S: Real> Observer<S> for Ledger<S> {
     }
 
     fn event(&mut self, event: Event, _time: S, state: &BlockState<S>) {
+        self.swing.begins(event, state);
         let Some(mut last) = self.last else {
             // Before any motion: a block that uplifts has stood.
             if event == Event::Uplift {

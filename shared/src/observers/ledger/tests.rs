@@ -320,6 +320,30 @@ fn a_spring_that_an_impact_lets_go_is_lost_in_its_clutch() {
     assert!(ledger.entries.residual().abs() < 1e-15);
 }
 
+/// On a support of its own motion an ideal clutch gives a flywheel ½ · 0.4 · 2² and its brake takes it, in swings that count: faster than 3e-7.
+#[test]
+fn what_a_clutch_creates_in_a_swing_too_slow_to_count_goes_back() {
+    let block = Block::of_unit_frequency(0.3, 1.25).unwrap();
+    let account = Account { clutching: Clutching::Ideal, mass_ratio: 0.5, on_support: true, ..Account::default() };
+    let mut ledger = Ledger::new(&block, Geometry::Full, &account);
+    let mut counts = 0.0;
+    for (after_impact, at_release, counted) in [(1e-6, 1e-6, true), (1e-7, 1e-7, false), (1e-7, 1e-3, true)] {
+        show(&mut ledger, 0.0, |_| snapshot(0.0, -1e-5, 0.0, false));
+        event(&mut ledger, Event::Impact, after_impact);
+        event(&mut ledger, Event::Switch, after_impact);
+        show(&mut ledger, 0.0, |_| snapshot(0.0, after_impact, 2.0, true));
+        let near = |value: f64, exact: f64| assert!((value - exact).abs() < 1e-15, "{value} and {exact}");
+        near(ledger.entries.created, 0.8 * (counts + 1.0));
+        near(ledger.entries.brake, 0.8 * counts);
+        show(&mut ledger, 0.0, |_| snapshot(1e-3, at_release, 2.0, true));
+        event(&mut ledger, Event::Switch, at_release);
+        show(&mut ledger, 0.0, |_| snapshot(1e-3, at_release, 0.0, false));
+        counts += f64::from(counted);
+        near(ledger.entries.created, 0.8 * counts);
+        near(ledger.entries.brake, 0.8 * counts);
+    }
+}
+
 #[test]
 fn powers_are_integrated_and_the_ground_works_on_block_and_rack() {
     let mut ledger = scripted(Clutching::Real, 0.3);

@@ -78,7 +78,7 @@ impl ChecksTable {
     /// none holds a clutch.
     pub(crate) fn coil_use(&self, device: &SceneDevice, loaded: &Structure, carried: bool) -> Option<CoilUse> {
         let looks = self.coil.is_some() && device.takes_commands();
-        looks.then(|| CoilUse::of(carried, CountedSwing::of(loaded)))
+        looks.then(|| CoilUse::of(carried, CountedSwing::of(&loaded.block)))
     }
 
     /// # Errors

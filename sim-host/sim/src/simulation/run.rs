@@ -298,7 +298,7 @@ impl<'a> Task<'a> {
         Ok(Watchers {
             recorder: Recorder::new(self.force_scale(loaded), stays_engaged, self.interval, segments)
                 .carried(self.carried())
-                .counting(CountedSwing::of(loaded)),
+                .counting(CountedSwing::of(&loaded.block)),
             peaks: Peaks { rocked: self.released().is_some(), ..Peaks::default() },
             checks: checks.map(|checks| match &self.scene.file.checks {
                 Some(table) if self.reports || table.friction_coefficient.is_some() => checks,

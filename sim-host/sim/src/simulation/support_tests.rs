@@ -201,6 +201,44 @@ fn impacts_that_accumulate_are_those_that_are_followed() {
     }
 }
 
+/// Every bounce of a block that dies away on a support that moves engages a flywheel at the speed of the support, and releases it.
+#[test]
+fn the_rest_threshold_does_not_show_in_what_clutches_create() {
+    let folder = tempfile::tempdir().unwrap();
+    let coil = "checks={coil={holding_power_w=24}}";
+    for (support, amplitude) in
+        [("support_amplification = 2.5", 1.3), ("support_frequency_hz = 1.0, support_damping_ratio = 0.02", -1.3)]
+    {
+        for misses in ["", ", actuation = { miss_probability = 0.3, miss_seed = 3 }"] {
+            let device = format!("kind = 'clutched-pair', {support}{misses}");
+            let pulse = format!("{{motion='sine',amplitude_ratio={amplitude},frequency_hz=2}}");
+            let ground = format!("ground=[{pulse},{{motion='half-sine',amplitude_ratio=0.3,frequency_hz=0.1}}]");
+            let [usual, others @ ..] = ["1e-6", "1e-7", "1e-8", "1e-9"].map(|speed| {
+                let rest = format!("run.rest_speed_ratio={speed}");
+                run(folder.path(), &device, &[&ground, "block.restitution=0.9", coil, &rest])
+            });
+            let counts =
+                |run: &DeviceRun| (run.impacts, run.checks.as_ref().unwrap().coils.unwrap().closings, run.missed_engagements);
+            let books = |run: &DeviceRun| {
+                let entries = run.energy.as_ref().unwrap().entries;
+                [entries.created, entries.brake, entries.input, entries.impact, entries.residual]
+            };
+            // What some dozens of engagements create.
+            let exact = books(&usual);
+            assert!(exact[0] > 0.2, "{device}: {exact:?}");
+            for other in &others {
+                let found = books(other);
+                assert_eq!(counts(other), counts(&usual), "{device}");
+                assert!(
+                    found[..4].iter().zip(exact).all(|(found, exact)| (found / exact - 1.0).abs() < 2e-5),
+                    "{device}: {found:?} and {exact:?}"
+                );
+                assert!(found[4].abs() < 1e-12 * found[1], "{device}: {found:?}");
+            }
+        }
+    }
+}
+
 /// Below the rest threshold a support that swings on lets a block bounce on; hundreds of such bounces are within 1e-9/p where each takes hardly
 /// anything.
 #[test]
