@@ -258,6 +258,7 @@ impl<S: Real> HybridSystem<S> {
         if held {
             self.hold_law(state, &mut law);
         }
+        let still = traits.on_support && self.spare_standing_support(&mut law, state, shaking, (*time, stop));
         let start = ModeStart {
             system: self,
             law: &law,
@@ -352,6 +353,7 @@ impl<S: Real> HybridSystem<S> {
                 motion.velocity = S::ZERO;
                 observer.event(Event::Turn, *time, &state.motion);
                 state.motion.direction = state.motion.direction.opposite();
+                self.turn_terminals(state, still);
                 if state.jolted {
                     self.look_at_drive(state);
                 }

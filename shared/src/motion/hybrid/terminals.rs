@@ -2,6 +2,7 @@
 
 use super::mode_output::Shaking;
 use super::{HybridState, HybridSystem};
+use crate::drivetrain::clutch_state::{Guard, ModeCoefficients, Terminals};
 use crate::equation::Accelerations;
 use crate::equation::body::Body;
 use crate::ground::GroundSegment;
@@ -59,10 +60,40 @@ impl<S: Real> HybridSystem<S> {
         let [ground, support] = self.transmission.parameters.support_rates();
         let accelerates = ground * standing.ground[0] + support * standing.ground[2] != S::ZERO;
         let Some(terminals) = &mut standing.device.terminals else { return false };
-        if !accelerates && terminals.support.abs() <= S::of(ROUNDINGS) * S::EPSILON * self.speed {
+        if !accelerates && self.stands_still(terminals) {
             terminals.support = S::ZERO;
         }
         accelerates || terminals.support != S::ZERO
+    }
+
+    /// Whether what there is of the support's speed is rounding.
+    fn stands_still(&self, terminals: &Terminals<S>) -> bool {
+        terminals.support.abs() <= S::of(ROUNDINGS) * S::EPSILON * self.speed
+    }
+
+    /// Whether the support stands on the ground between two local times of a segment. Its terminals then turn with the block, and `law` does not
+    /// watch them: what rounding has left of its speed may turn them about once more.
+    pub(super) fn spare_standing_support(
+        &self,
+        law: &mut ModeCoefficients<S>,
+        state: &HybridState<S>,
+        shaking: Shaking<'_, S>,
+        (from, to): (S, S),
+    ) -> bool {
+        let stands = state.device.terminals.is_some_and(|terminals| self.stands_still(&terminals))
+            && self.support_rate(shaking, from) == (S::ZERO, S::ZERO)
+            && self.support_gain(state, shaking, from, to) == S::ZERO;
+        if stands {
+            law.watch[1] = Guard::Nothing;
+        }
+        stands
+    }
+
+    /// The block turns, and its terminals with it if their support `stands`.
+    pub(super) fn turn_terminals(&self, state: &mut HybridState<S>, stands: bool) {
+        if let (true, Some(terminals)) = (stands, &mut state.device.terminals) {
+            terminals.direction = state.motion.direction;
+        }
     }
 
     /// Commands of Eq. 10 to the clutches of a standing block, whose terminals move with the support alone. Returns until when its speed and

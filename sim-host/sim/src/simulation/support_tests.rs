@@ -201,6 +201,29 @@ fn impacts_that_accumulate_are_those_that_are_followed() {
     }
 }
 
+/// Where the ground has stopped, the terminals of every device turn with its block: one command a swing, and one draw for its miss, whatever
+/// rounding has left of the support's speed.
+#[test]
+fn terminals_on_a_support_that_has_stopped_turn_once_a_swing() {
+    let folder = tempfile::tempdir().unwrap();
+    for (amplification, amplitude, frequency) in
+        [(0.65, 1.3, 3.0), (0.65, 1.6, 5.0), (1.5, 1.6, 3.0), (1.5, 1.3, 4.0), (1.5, 1.3, 6.0)]
+    {
+        let device = format!(
+            "kind = 'clutched-pair', support_amplification = {amplification}, actuation = {{ \
+             engagement_delay_s = 0.04, delay = 'transport', miss_probability = 0.3, miss_seed = 2 }}"
+        );
+        let ground = format!("ground=[{{motion='sine',amplitude_ratio={amplitude},frequency_ratio={frequency}}}]");
+        let [series, steps] = ["method='taylor'", "method='runge-kutta-4',step_s=0.001"].map(|method| {
+            let accuracy = format!("accuracy={{{method}}}");
+            let run = run(folder.path(), &device, &[&ground, &accuracy, "block.restitution=0.85", "run.free_time_s=4"]);
+            (run.impacts, run.clutch_switches, run.missed_engagements)
+        });
+        assert!(series.2 > 2, "{series:?}");
+        assert_eq!(series, steps, "{device} {ground}");
+    }
+}
+
 /// Every bounce of a block that dies away on a support that moves engages a flywheel at the speed of the support, and releases it.
 #[test]
 fn the_rest_threshold_does_not_show_in_what_clutches_create() {
