@@ -139,7 +139,6 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Capacity now and its growth.
-    #[inline]
     pub fn capacity_of(&self, wheel: &FlywheelState<S>) -> (S, S) {
         let Some(Line { time: [from, to], share: [low, high] }) = self.line_at(wheel.engaged_for) else {
             return (self.capacity, S::ZERO);
@@ -150,7 +149,8 @@ impl<S: Real> ScaledParameters<S> {
     }
 
     /// Adds rack, bearings, brakes and plates to the coefficients of a direction.
-    #[inline]
+    // Once for all kinds.
+    #[inline(never)]
     pub fn complete(&self, law: &mut ModeCoefficients<S>, device: &DeviceState<S>) {
         (law.coupling, law.push.ground) = (self.rack_coupling, self.rack_push);
         (law.viscous, law.dry) = (self.rack_viscous, self.rack_dry);

@@ -16,6 +16,13 @@ pub struct Fall<S, T> {
     overturned: bool,
 }
 
+/// When |θ| passes `slenderness` (rad) along `interval`, s after the start of its step.
+#[inline(never)]
+fn passing<S: Real>(output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>, slenderness: S) -> S {
+    let beyond = |t: S| interval.side.times(output.motion().at(t).rotation) - slenderness;
+    illinois(interval.from, interval.to, Sign::Negative, beyond)
+}
+
 impl<S: Real, T: Copy> Fall<S, T> {
     /// Of a block of α = `slenderness` (rad), where clutches switch and a free block's θ̈ is 0.
     pub fn beyond(slenderness: S) -> Fall<S, T> {
@@ -42,7 +49,7 @@ impl<S: Real, T: Copy> Fall<S, T> {
         if beyond(interval.first.rotation) >= S::ZERO {
             return self.found.or_else(|| Some(found(None)));
         }
-        let passes = illinois(interval.from, interval.to, Sign::Negative, |t| beyond(output.motion().at(t).rotation));
+        let passes = passing(output, interval, self.slenderness);
         Some(found(Some(&MonotoneInterval { to: passes, last: output.motion().at(passes), ..*interval })))
     }
 

@@ -211,7 +211,7 @@ impl<S: Real> Checks<S> {
         }
         for (quantity, values) in looks.iter().enumerate().skip(self.first) {
             let reading = |t: S| self.readings(side, &output.snapshot(t))[quantity];
-            let (time, value) = largest(span, values, self.report.record(quantity), reading);
+            let (time, value) = largest(span, values, self.report.record(quantity), &mut &reading);
             self.report.raise(quantity, value, start + time);
         }
         if self.first >= FORCES {
@@ -223,7 +223,7 @@ impl<S: Real> Checks<S> {
                 self.toe.size * first.abs().larger(second.abs())
             };
             let speeds = core::array::from_fn(|i| speed(instant(span, i)));
-            let (time, value) = largest(span, &speeds, self.report.flywheel_speed.map(|known| known.value), speed);
+            let (time, value) = largest(span, &speeds, self.report.flywheel_speed.map(|known| known.value), &mut &speed);
             Extreme::raise(&mut self.report.flywheel_speed, value, start + time);
         }
         if self.report.contact_lost.is_none()
