@@ -134,9 +134,9 @@ loaded!(RigidPair, 2, 1, |_, at, wheel| at.jolt_under_load(wheel));
 /// [`account`], with the friction of the mesh: the rack passes it on to the pinion, whose bearings are those of the flywheel.
 fn loaded_account<S: Real, const X: usize>(at: &AnyPoint<'_, S, X>, acceleration: S, device: &DeviceState<S>) -> Account<S> {
     let mut account = account(at, acceleration, device);
-    let friction = account.force.map(|force| at.parameters.load_share(device) * force);
-    account.force = core::array::from_fn(|i| account.force[i & 1] + friction[i & 1]);
-    let rack = at.body.to_terminal(&at.configuration, at.velocity);
-    account.spent.rack = account.spent.rack + (friction[0] + friction[1]) * rack;
+    let share = at.parameters.load_share(device);
+    let [first, second] = account.force.map(|force| share * force);
+    account.force = account.force.map(|force| force + share * force);
+    account.spent.rack = account.spent.rack + (first + second) * at.body.to_terminal(&at.configuration, at.velocity);
     account
 }
