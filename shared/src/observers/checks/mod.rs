@@ -202,28 +202,31 @@ impl<S: Real> Checks<S> {
         let side = interval.side;
         let start = self.origin + interval.start;
         let span = (interval.from, interval.to);
-        let mut looks = [[S::ZERO; LOOKS]; QUANTITIES];
+        let flywheel_speed = |snapshot: &Snapshot<S>| {
+            let [first, second] = snapshot.device.spin;
+            self.toe.size * first.abs().larger(second.abs())
+        };
+        let (mut looks, mut speeds) = ([[S::ZERO; LOOKS]; QUANTITIES], [S::ZERO; LOOKS]);
         for i in 0..LOOKS {
-            let readings = self.readings(side, &output.snapshot(instant(span, i)));
-            for (values, reading) in looks.iter_mut().zip(readings) {
+            let snapshot = output.snapshot(instant(span, i));
+            for (values, reading) in looks.iter_mut().zip(self.readings(side, &snapshot)) {
                 values[i] = reading;
+            }
+            if self.springs {
+                speeds[i] = flywheel_speed(&snapshot);
             }
         }
         for (quantity, values) in looks.iter().enumerate().skip(self.first) {
             let reading = |t: S| self.readings(side, &output.snapshot(t))[quantity];
-            let (time, value) = largest(span, values, self.report.record(quantity), &mut &reading);
+            let (time, value) = largest(span, values, self.report.record(quantity), &reading);
             self.report.raise(quantity, value, start + time);
         }
         if self.first >= FORCES {
             return;
         }
         if self.springs {
-            let speed = |t: S| {
-                let [first, second] = output.snapshot(t).device.spin;
-                self.toe.size * first.abs().larger(second.abs())
-            };
-            let speeds = core::array::from_fn(|i| speed(instant(span, i)));
-            let (time, value) = largest(span, &speeds, self.report.flywheel_speed.map(|known| known.value), &mut &speed);
+            let record = self.report.flywheel_speed.map(|known| known.value);
+            let (time, value) = largest(span, &speeds, record, &|t| flywheel_speed(&output.snapshot(t)));
             Extreme::raise(&mut self.report.flywheel_speed, value, start + time);
         }
         if self.report.contact_lost.is_none()

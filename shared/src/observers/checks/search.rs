@@ -14,7 +14,7 @@ pub(super) fn instant<S: Real>((from, to): (S, S), i: usize) -> S {
 }
 
 /// Time and value of the largest of `looks`, or of `function` near it where that may be above `record`.
-pub(super) fn largest<S: Real>(span: (S, S), looks: &[S; LOOKS], record: Option<S>, function: &mut dyn FnMut(S) -> S) -> (S, S) {
+pub(super) fn largest<S: Real>(span: (S, S), looks: &[S; LOOKS], record: Option<S>, function: &dyn Fn(S) -> S) -> (S, S) {
     let value = |i: usize| looks[i];
     let highest = (1..LOOKS).fold(0, |best, i| if value(i) > value(best) { i } else { best });
     let found = (instant(span, highest), value(highest));
@@ -36,7 +36,7 @@ pub(super) fn largest<S: Real>(span: (S, S), looks: &[S; LOOKS], record: Option<
 }
 
 /// Time and value of the largest value of `function` within `bracket`, which holds one maximum: golden-section search.
-fn golden_section<S: Real>((mut low, mut high): (S, S), function: &mut dyn FnMut(S) -> S) -> (S, S) {
+fn golden_section<S: Real>((mut low, mut high): (S, S), function: &dyn Fn(S) -> S) -> (S, S) {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let golden = S::of(GOLDEN);
     let (mut left, mut right) = (high - golden * (high - low), low + golden * (high - low));
