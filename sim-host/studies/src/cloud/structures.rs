@@ -52,12 +52,9 @@ pub(super) fn structures(
         None => Scene::parse_with(PIER, "the scene of a study that names none", overrides),
     };
     let given = || overrides.iter().filter_map(|item| Some(item.split_once('=')?.0.trim()));
-    for key_given in given() {
-        let has =
-            |schema: &serde_json::Value| schema["properties"].get(key_given.split('.').next().unwrap_or_default()).is_some();
-        if has(StudyFile::schema()) && !has(SceneFile::schema()) {
-            return Err(key(&format!("--set {key_given}")).conflict("a key of the study itself; change it there").into());
-        }
+    let of_study = |given: &&str| SceneFile::stranger(given.split('.').next().unwrap_or_default()).is_some();
+    if let Some(given) = given().find(of_study) {
+        return Err(key(&format!("--set {given}")).conflict("a key of the study itself; change it there").into());
     }
     let base = load(overrides)?;
     if file.structure.is_empty() {
