@@ -34,8 +34,13 @@ fn words(line: &str) -> Vec<&str> {
     words
 }
 
+/// What stands between brackets, underscores, blanks and the like; empty between two of them.
+fn parts(name: &str) -> impl Iterator<Item = &str> {
+    name.split(|c: char| !c.is_alphanumeric())
+}
+
 fn first_word(name: &str) -> String {
-    name.trim().split(|c: char| !c.is_alphanumeric()).next().unwrap_or("").to_lowercase()
+    parts(name.trim()).next().unwrap_or("").to_lowercase()
 }
 
 /// Whether a column of this name holds times.
@@ -46,7 +51,7 @@ pub(super) fn is_time(name: &str) -> bool {
 /// Whether a name has a word or a unit of time, in any language: `Zeit (s)`.
 pub(super) fn speaks_of_time(name: &str) -> bool {
     let unit = |word: &str| matches!(word.to_lowercase().as_str(), "s" | "sec" | "secs" | "second" | "seconds");
-    is_time(name) || seconds_per_unit(name) == Ok(1e-3) || name.split(|c: char| !c.is_alphanumeric()).any(unit)
+    is_time(name) || seconds_per_unit(name) == Ok(1e-3) || parts(name).any(unit)
 }
 
 /// Whether a column of this name holds accelerations.
@@ -57,7 +62,7 @@ pub(super) fn is_acceleration(name: &str) -> bool {
 
 /// What a column holds, if its name says that it is no acceleration.
 fn other_quantity(name: &str) -> Option<&'static str> {
-    let words = || name.split(|c: char| !c.is_alphanumeric()).map(str::to_lowercase);
+    let words = || parts(name).map(str::to_lowercase);
     if words().any(|word| word.starts_with("acc")) {
         return None;
     }
@@ -75,7 +80,7 @@ const MOST_WORDS: usize = 3;
 /// Whether a column of this name is one of a spectrum: periods, frequencies, or what is plotted over them.
 fn is_spectral(name: &str) -> bool {
     let lower = name.to_lowercase();
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = parts(&lower).filter(|word| !word.is_empty()).collect();
     if words.iter().any(|word| word.starts_with("acc")) {
         return words.contains(&"spectral");
     }
@@ -110,10 +115,13 @@ const OTHER_TIMES: &str = "min mins minute minutes h hr hrs hour hours day days 
 
 /// Seconds in one unit of a time column, by its name; the unit itself where it is neither s nor ms.
 pub(super) fn seconds_per_unit(name: &str) -> Result<f64, &str> {
-    let words = || name.split(|c: char| !c.is_alphanumeric()).map(|word| (word, word.to_lowercase()));
-    if let Some((word, _)) = words().find(|(_, lower)| OTHER_TIMES.split(' ').any(|other| other == lower)) {
-        return Err(word);
+    let is_other = |word: &&str| OTHER_TIMES.split(' ').any(|other| other == word.to_lowercase());
+    if let Some(unit) = parts(name).find(is_other) {
+        return Err(unit);
     }
-    let milliseconds = |(_, word): (&str, String)| word == "ms" || word == "msec" || word.starts_with("millis");
-    Ok(if words().any(milliseconds) { 1e-3 } else { 1.0 })
+    let milliseconds = parts(name).any(|word| {
+        let word = word.to_lowercase();
+        word == "ms" || word == "msec" || word.starts_with("millis")
+    });
+    Ok(if milliseconds { 1e-3 } else { 1.0 })
 }
