@@ -222,6 +222,12 @@ mod tests {
         supervision(&structure, &desk.suite, &design, table, (0.0, 0.0)).monitor
     }
 
+    /// The scene that ships, with one key changed.
+    fn shipped_with(change: &str) -> LoopScene {
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/controller.toml");
+        LoopScene::new(Scene::load(&scene, &[change.to_owned()]).unwrap()).unwrap()
+    }
+
     fn faults(desk: &LoopScene, seed: u64) -> usize {
         faults_with(desk, seed, &mut ())
     }
@@ -368,7 +374,6 @@ mod tests {
     /// Others tell of a motion, and of its end, long before them.
     #[test]
     fn the_slowest_sensors_are_no_fault() {
-        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/controller.toml");
         for sensor in [
             "encoder = { rate_hz = 2, synchronous = true }",
             "encoder = { rate_hz = 4, synchronous = true }",
@@ -384,23 +389,20 @@ mod tests {
             "ground_accelerometer = { bandwidth_hz = 2.3 }",
             "ground_accelerometer = { rate_hz = 1, synchronous = true }",
         ] {
-            let scene = Scene::load(&scene, &[format!("controller.sensors.{sensor}")]).unwrap();
-            assert_eq!(faults(&LoopScene::new(scene).unwrap(), 1), 0, "{sensor}");
+            assert_eq!(faults(&shipped_with(&format!("controller.sensors.{sensor}")), 1), 0, "{sensor}");
         }
     }
 
     /// After a move, or until all that was commanded before has moved it, in order.
     #[test]
     fn a_clutch_that_its_dwell_holds_is_no_fault() {
-        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/controller.toml");
         for actuation in [
             "dwell_s = 0.05",
             "dwell_s = 0.5",
             "engagement_delay_s = 0.01, dwell_s = 0.01, delay = 'transport'",
             "engagement_delay_s = 0.01, dwell_s = 0.05, delay = 'transport'",
         ] {
-            let scene = Scene::load(&scene, &[format!("device.0.actuation={{ {actuation} }}")]).unwrap();
-            let desk = LoopScene::new(scene).unwrap();
+            let desk = shipped_with(&format!("device.0.actuation={{ {actuation} }}"));
             assert_eq!(faults(&desk, 1), 0, "{actuation}");
             // One that stays open is found all the same.
             assert!(faults_with(&desk, 1, &mut Injected::new(Failing::Refuses, 0.5)) > 0, "{actuation}");
