@@ -111,8 +111,11 @@ enum Task {
     Site,
     /// Build the page into web/dist and test it in a browser; needs Chromium, Node or a package index, and the registry of Node's packages
     Web {
-        /// Build, and instead of the tests print how fast the lanes are against those of this machine's programs
+        /// Build alone, for which no browser is needed
         #[arg(long)]
+        no_tests: bool,
+        /// Build, and instead of the tests print how fast the lanes are against those of this machine's programs
+        #[arg(long, conflicts_with = "no_tests")]
         speed: bool,
     },
     /// Print figures of the code: lines without tests, test executables, and of each program that is built the event loops and the bytes
@@ -180,8 +183,8 @@ fn run(task: Task) -> Result<(), Stop> {
         Task::Python { dist } => python::Started::new(root, dist)?.check(root, &mut Steps::default(), None),
         Task::Wheels => python::wheels(root, &mut Steps::default()),
         Task::Site => site::run(root, &mut Steps::default()),
-        Task::Web { speed: false } => web::run(root, &mut Steps::default()),
-        Task::Web { speed: true } => web::speed(root),
+        Task::Web { speed: true, .. } => web::speed(root),
+        Task::Web { no_tests, .. } => web::run(root, &mut Steps::default(), !no_tests),
         Task::Figures { program } => figures::run(root, program.as_deref()),
         Task::Deb => package::deb(root),
         Task::Cluster => cluster::run(root, &test::program(root)),

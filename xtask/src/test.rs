@@ -81,11 +81,14 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
     hardware::schematic(root, &mut steps, fuzz_seconds.is_some())?;
     steps.step("tests, board image", || board_image::tests(root, &built))?;
     steps.step("rest of the tests' build", || built_tests.wait())?;
+    // While the last test of a program runs, one processor is idle.
+    let page = web::build_beside(root)?;
     let fuzz_targets = Beside::start(&mut fuzz::check(root))?;
     steps.step("tests", || tests(root, &built, fuzz_seconds.is_some()))?;
     steps.step("rest of fuzz targets", || fuzz_targets.wait())?;
-    // Python, the site and the page keep one processor busy each.
-    let page = web::beside(root)?;
+    steps.step("rest of the page's build", || page.wait())?;
+    // Python, the site and the page's tests keep one processor busy each.
+    let page = web::tests_beside(root)?;
     steps.step("Slurm array", || cluster::run(root, &program(root)))?;
     match python {
         Ok(python) => {
@@ -94,7 +97,7 @@ pub fn run(root: &Path, fuzz_seconds: Option<u32>) -> Result<(), Stop> {
         }
         Err(stop) => println!("-- checks not run: the Python package, the site: {stop}"),
     }
-    steps.step("rest of the page", || page.wait())?;
+    steps.step("rest of the page's tests", || page.wait())?;
     match fuzz_seconds {
         Some(seconds) => {
             steps.step("installed program", || package::try_installed(root))?;

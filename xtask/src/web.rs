@@ -36,19 +36,20 @@ const BUILDS: [Build; 2] = [
     (&["--package", "sprag-page-lanes", "--config", SIMD], &[("lanes-simd", "sprag_lanes")]),
 ];
 
-/// Builds the page into web/dist, and tests it in a browser.
+/// Builds the page into web/dist, and tests it in a browser if it shall be.
 ///
 /// # Errors
-/// At the first check that fails, or if there is no Node, no browser or no package index.
-pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
-    let folder = root.join(FOLDER);
+/// At the first check that fails, or if there is no Node, no browser for the tests or no package index.
+pub fn run(root: &Path, steps: &mut Steps, tested: bool) -> Result<(), Stop> {
     let path = steps.step("tools, page", || {
         tools::need_target(root, TARGET)?;
-        tools::need_browser()?;
+        if tested {
+            tools::need_browser()?
+        }
         tools::path_with_node(root)
     })?;
     steps.step("core of the page", || {
-        empty(&folder.join("src/core"))?;
+        empty(&root.join(FOLDER).join("src/core"))?;
         build(root)
     })?;
     // What the host's lints do not see.
@@ -56,23 +57,33 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
         let lints = ["--", "-D", "warnings"];
         done(cargo(root, &["clippy", "--profile", PROFILE, "--target", TARGET]).args(PACKAGES).args(lints))
     })?;
-    let npm = |words: &[&str]| done(Command::new("npm").current_dir(&folder).env("PATH", &path).args(words));
+    let npm = |words: &[&str]| done(Command::new("npm").current_dir(root.join(FOLDER)).env("PATH", &path).args(words));
     steps.step("page", || {
         npm(&["ci", "--no-audit", "--no-fund"])?;
         npm(&["run", "check"])?;
         npm(&["run", "types"])?;
         npm(&["run", "build"])
     })?;
-    steps.step("tests, page", || npm(&["test"]))
+    if tested { steps.step("tests, page", || npm(&["test"])) } else { Ok(()) }
 }
 
-/// Starts [`run`] as a process that runs beside other steps.
+/// Starts the build as a process that runs beside other steps.
 ///
 /// # Errors
 /// If it cannot be started.
-pub fn beside(root: &Path) -> Result<Beside, Stop> {
+pub fn build_beside(root: &Path) -> Result<Beside, Stop> {
     let own = std::env::current_exe().map_err(|error| Stop::failed(error.to_string()))?;
-    Beside::start(Command::new(own).current_dir(root).arg("web"))
+    Beside::start(Command::new(own).current_dir(root).args(["web", "--no-tests"]))
+}
+
+/// Starts the tests of the page that is built, which run beside other steps.
+///
+/// # Errors
+/// If there is no Node or no browser, or they cannot be started.
+pub fn tests_beside(root: &Path) -> Result<Beside, Stop> {
+    tools::need_browser()?;
+    let path = tools::path_with_node(root)?;
+    Beside::start(Command::new("npm").current_dir(root.join(FOLDER)).env("PATH", path).arg("test"))
 }
 
 /// Prints cells a second of the page's lanes on one core and their ratios to those of a program: with SIMD to the registers that every machine
