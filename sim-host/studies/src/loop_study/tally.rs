@@ -53,11 +53,12 @@ impl Tally {
         self.overturned.iter().filter(|&&overturned| overturned).count()
     }
 
-    /// The share of each specimen.
+    /// The share of each specimen that has a run.
     fn shares(&self) -> Vec<f64> {
         let of = |specimen: usize| self.overturned.iter().skip(specimen).step_by(self.specimens);
         let count = |specimen: usize| of(specimen).filter(|&&overturned| overturned).count();
-        (0..self.specimens).map(|specimen| count(specimen) as f64 / of(specimen).count().max(1) as f64).collect()
+        let with_runs = 0..self.specimens.min(self.overturned.len());
+        with_runs.map(|specimen| count(specimen) as f64 / of(specimen).count() as f64).collect()
     }
 
     /// The mean share.
@@ -152,6 +153,17 @@ mod tests {
         assert_eq!(fewest(&[other, one]), [1, 0], "four specimens are few");
         let none = tally([0; 8]);
         assert_eq!(fewest(&[none.clone(), none, tally([1; 8])]), [0, 1], "every specimen distinguishes them");
+    }
+
+    /// One record at three scales under 32 specimens: nobody ran under the other 29.
+    #[test]
+    fn a_specimen_without_a_run_has_no_share() {
+        let tally = |bits: [bool; 3]| Tally { overturned: bits.to_vec(), specimens: 32 };
+        let (all, none) = (tally([true; 3]), tally([false; 3]));
+        assert_eq!(all.share(), Mean { value: 1.0, half: 0.0 });
+        assert_eq!(all.beyond(&none).percent(true), "+100.0");
+        let some = tally([true, false, false]);
+        assert_eq!(some.share(), Mean::of(&[1.0, 0.0, 0.0]));
     }
 
     #[test]
