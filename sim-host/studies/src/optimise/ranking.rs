@@ -73,13 +73,11 @@ impl Ranking {
             let overturning = overturning(problem, best, design)?;
             let sure = overturning.is_sure(bootstrap.level);
             let rotations = sums(best, design, problem.motions.len(), log_rotation);
-            let rotations: Vec<Option<f64>> =
-                rotations.into_iter().map(|pair| pair.map(|(sum, count)| sum / f64::from(count))).collect();
             let outcomes = |design: &Design| -> Vec<Option<bool>> {
                 design.responses.iter().map(|response| Some(response.as_ref().ok()?.outcome.overturned())).collect()
             };
             let alike = outcomes(best) == outcomes(design);
-            Some(Rival { row, overturning, alike, log_rotation: groups.paired(&rotations, bootstrap), sure })
+            Some(Rival { row, overturning, alike, log_rotation: groups.paired_repeatedly(&rotations, bootstrap), sure })
         };
         let (chosen_again, probability_left_out) =
             if groups.number() > 1 { again(problem, solution, &groups, bootstrap) } else { (Vec::new(), None) };

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use sprag_report::columns::write_csv;
+use sprag_shared::math::ln;
 use sprag_sim::interrupt::Interrupt;
 use sprag_sim::scene::device::{Kind, MountName};
 use sprag_sim::scene::drivetrain::EngagementName;
@@ -196,6 +197,28 @@ fn means_are_shown_beside_means() {
     assert!(page.contains(&beside), "{beside}\n{page}");
     let page = super::page::page(&problem, &found).unwrap();
     assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
+}
+
+/// A motion counts once for each specimen that it shakes, in rotations as in overturning.
+#[test]
+fn rotations_are_compared_over_all_specimens() {
+    let study = Study::parse(WORST, "study.toml", Path::new(""), &[], &[]).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+    let found = Findings::of(&problem, &solution);
+    let design = |row: &Row| {
+        let all = || std::iter::once(&solution.bare).chain(&solution.designs);
+        all().find(|design| design.candidate == row.candidate).unwrap()
+    };
+    let best = design(found.best.as_ref().unwrap());
+    for rival in &found.ranking.as_ref().unwrap().rivals {
+        let pairs = best.responses.iter().zip(&design(&rival.row).responses);
+        let peaks =
+            pairs.filter_map(|(best, other)| Some((best.as_ref().ok()?.peak_rotation?, other.as_ref().ok()?.peak_rotation?)));
+        let logs: Vec<f64> = peaks.filter(|(best, other)| best.min(*other) > 0.0).map(|(best, other)| ln(other / best)).collect();
+        let [mean, difference] = [logs.iter().sum::<f64>() / logs.len() as f64, rival.log_rotation.unwrap().difference];
+        assert!((difference - mean).abs() < 1e-12, "{}: {difference} {mean}", rival.row.law);
+    }
 }
 
 /// At the base corners no clutch can be late: nothing is run for it, and one note says so.

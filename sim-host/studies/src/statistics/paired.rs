@@ -67,16 +67,11 @@ impl Groups {
         weights
     }
 
-    /// What `differences` say, one a pair in the order of the groups' names; a pair without one is left out. `None` without any.
+    /// What pairs say that were tried once or several times, each under specimens of its own: the sum of the differences of each, and of how
+    /// many, in the order of the groups' names; a pair without one is left out. `None` without any. Sums of whole numbers are exact, so that
+    /// differences that cancel are none.
     ///
     /// Neither the number of threads nor what else is compared changes a bit.
-    pub fn paired(&self, differences: &[Option<f64>], bootstrap: Bootstrap) -> Option<Paired> {
-        let once: Vec<Option<(f64, u32)>> = differences.iter().map(|difference| Some(((*difference)?, 1))).collect();
-        self.paired_repeatedly(&once, bootstrap)
-    }
-
-    /// As [`Groups::paired`] of pairs that were tried several times: the sum of the differences of each, and of how many. Sums of whole numbers are
-    /// exact, so that differences that cancel are none.
     pub fn paired_repeatedly(&self, sums_of_pairs: &[Option<(f64, u32)>], bootstrap: Bootstrap) -> Option<Paired> {
         let mut sums = vec![(0.0, 0_u32); self.number];
         for (group, (sum, count)) in self.of.iter().zip(sums_of_pairs).filter_map(|(group, found)| Some((*group, (*found)?))) {
@@ -130,6 +125,14 @@ mod tests {
     use rand_chacha::rand_core::{Rng, SeedableRng};
 
     const BOOTSTRAP: Bootstrap = Bootstrap { resamples: 400, seed: 3, level: Level::COMMON };
+
+    impl Groups {
+        /// Of pairs that were tried once.
+        fn paired(&self, differences: &[Option<f64>], bootstrap: Bootstrap) -> Option<Paired> {
+            let once: Vec<Option<(f64, u32)>> = differences.iter().map(|difference| Some(((*difference)?, 1))).collect();
+            self.paired_repeatedly(&once, bootstrap)
+        }
+    }
 
     fn each_alone(number: usize) -> Groups {
         Groups::of(&(0..number).map(|index| index.to_string()).collect::<Vec<_>>())
