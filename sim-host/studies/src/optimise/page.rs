@@ -59,6 +59,10 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableE
         limits(choices)
     );
     page += &choice_table(findings)?.markdown();
+    let of = match choices.limits.quantile {
+        1.0 => String::new(),
+        quantile => format!("the {} quantile ", percent(quantile)),
+    };
     let force = if choices.limits.force_of_overturned {
         "over all motions, until the block lies down where they overturn it"
     } else {
@@ -67,7 +71,7 @@ pub fn page(problem: &Problem<'_>, findings: &Findings) -> Result<String, TableE
     page += &format!(
         "\nFrom, to: Wilson's band of {}, of the probability behind the share, as if motions were independent; those of one record at\n\
          several scales are not. Saved and newly: motions that overturn the bare block and not this one, and this one and not the bare block.\n\
-         F/(mg): {force}; stroke: over the motions in which the\n\
+         F/(mg): {of}{force}; stroke: {of}over the motions in which the\n\
          block stands. Median θ/α: over the motions that rock the bare block, where overturning counts as infinite (a dash).\n",
         percent(findings.level.value())
     );
@@ -116,7 +120,11 @@ pub(super) fn price(choices: &Choices<'_>, findings: &Findings) -> Result<String
             [format!("{} of the motions{by}", percent(without.probability)), percent(best.probability)]
         };
         page += &if without.score.objective < best.score.objective {
-            let force = without.peak_force_ratio.map_or_else(String::new, |force| format!(", with F/(mg) up to {force:.4}"));
+            let with = |force: f64| match choices.limits.quantile {
+                1.0 => format!(", with F/(mg) up to {force:.4}"),
+                quantile => format!(", with an F/(mg) whose {} quantile is {force:.4}", percent(quantile)),
+            };
+            let force = without.peak_force_ratio.map_or_else(String::new, with);
             format!("Without a limit {} would overturn under {under} instead of {instead}{force}.\n", device(without))
         } else {
             format!("Nothing in overturning: without a limit the best device overturns under {under} too.\n")

@@ -171,6 +171,26 @@ fn the_price_of_a_limit_is_in_the_measure_of_the_choice() {
     assert_eq!(in_the_mean, format!("Without a limit {device} would overturn under 2 of 20 motions instead of 4."));
 }
 
+/// A quantile of the forces is no bound of them.
+#[test]
+fn the_price_of_a_limit_names_the_quantile_of_its_force() {
+    let price = |quantile: &str| {
+        let study = study(&format!("[optimise]\nlargest_force_ratio = 0.3\n{quantile}"));
+        let score = |overturned: usize, force| Score {
+            motions: 10,
+            overturned,
+            objective: overturned as f64,
+            force_ratio: Some(force),
+            ..Score::default()
+        };
+        let page = super::page::price(&Choices::of(&study).unwrap(), &findings([score(4, 0.2), score(2, 0.5)])).unwrap();
+        page.lines().nth(3).unwrap().to_owned()
+    };
+    assert!(price("").ends_with("instead of 4, with F/(mg) up to 0.5000."), "{}", price(""));
+    let quantile = price("limit_quantile = 0.9");
+    assert!(quantile.ends_with("instead of 4, with an F/(mg) whose 90 % quantile is 0.5000."), "{quantile}");
+}
+
 /// A robust study of pulses that is made small by its worst specimen.
 const WORST: &str = "[optimise]\nlaws = ['inerter', 'clutched-pair']\nmass_ratio = { from = 0.2, to = 1.0, cells = 2 }\ndelays_s = [0.05]\n\
                      robust = { samples = 4, restitution = 0.3, quantile = 1.0 }\n\
@@ -197,6 +217,24 @@ fn means_are_shown_beside_means() {
     assert!(page.contains(&beside), "{beside}\n{page}");
     let page = super::page::page(&problem, &found).unwrap();
     assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
+}
+
+/// What a page shows as a quantile of the motions is not their largest.
+#[test]
+fn the_page_says_of_which_quantile_its_forces_are() {
+    let legend = |quantile: &str| {
+        let study =
+            Study::parse(&WORST.replace("[optimise]", &format!("[optimise]\n{quantile}")), "study.toml", Path::new(""), &[], &[]);
+        let study = study.unwrap();
+        let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+        let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+        let page = super::page::page(&problem, &Findings::of(&problem, &solution)).unwrap();
+        page.lines().skip_while(|line| !line.starts_with("F/(mg): ")).take(2).collect::<Vec<_>>().join(" ")
+    };
+    assert!(legend("").starts_with("F/(mg): over all motions, until"), "{}", legend(""));
+    let words = legend("limit_quantile = 0.5\nforce_of_overturned = false");
+    let of = "the 50 % quantile over the motions in which the block stands";
+    assert!(words.starts_with(&format!("F/(mg): {of}; stroke: {of}.")), "{words}");
 }
 
 /// A motion counts once for each specimen that it shakes, in rotations as in overturning.
