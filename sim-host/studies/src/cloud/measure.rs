@@ -115,9 +115,9 @@ impl Measure {
         }
     }
 
-    /// Formula of the measure as text.
-    pub fn formula(self) -> &'static str {
-        match self {
+    /// Formula of the measure as text, of the full model or the slender one.
+    pub fn formula(self, slender: bool) -> String {
+        let formula = match self {
             Measure::UniformDuration => "p t_uni",
             Measure::Pgv => "p PGV/(g tan α)",
             Measure::Pga => "PGA/(g tan α)",
@@ -126,7 +126,8 @@ impl Measure {
             Measure::Cav => "p CAV/(g tan α)",
             Measure::SignificantDuration => "p D5-95",
             Measure::Frequency => "PGA/(p PGV)",
-        }
+        };
+        if slender { formula.replace(" tan α", "α") } else { formula.to_owned() }
     }
 
     /// Its formula in the markup of axis titles.

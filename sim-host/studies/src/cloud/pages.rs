@@ -2,10 +2,12 @@
 
 use sprag_report::columns::TableError;
 use sprag_report::text_table::TextTable;
+use sprag_shared::structure::block::Geometry;
 
 use super::findings::Findings;
 use super::measure::Measure;
 use super::overturning::DeviceFragility;
+use super::structures::StudyStructure;
 use super::study::Study;
 use super::typed_tables::{demand_table, fitted_table, fragility_table};
 use crate::statistics::Fragility;
@@ -16,9 +18,22 @@ pub fn percent(share: f64) -> String {
     format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
+/// The formula of `measure` by the models of the structures.
+fn formula(study: &Study, measure: Measure) -> String {
+    let [full, slender] = [false, true].map(|slender| measure.formula(slender));
+    let is_slender = |structure: &StudyStructure| structure.scene.geometry() == Geometry::Slender;
+    if study.slender() {
+        slender
+    } else if full != slender && study.structures.iter().any(is_slender) {
+        format!("{full} (gα of slender blocks)")
+    } else {
+        full
+    }
+}
+
 /// `demand.md`.
 pub fn demand_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
-    let formula = study.file.demand.measure.formula();
+    let formula = formula(study, study.file.demand.measure);
     let mut page = format!("# {}: demand\n\n", heading(study));
     page += &format!(
         "Median demand a IM^b with IM = {formula}, fitted by least squares in the logarithms over the runs in which the block rocks\n\
@@ -38,7 +53,7 @@ pub fn demand_page(study: &Study, findings: &Findings) -> Result<String, TableEr
 
 /// `fragility.md`.
 pub fn fragility_page(study: &Study, findings: &Findings) -> Result<String, TableError> {
-    let formula = study.file.fragility.measure.formula();
+    let formula = formula(study, study.file.fragility.measure);
     let mut page = format!("# {}: fragility\n\n", heading(study));
     let bands = findings.fragility.iter().find_map(|found| found.bands.as_ref());
     let level = bands.map_or_else(String::new, |bands| format!(" of {}", percent(bands.bootstrap.level.value())));
@@ -89,7 +104,7 @@ pub fn ranking_page(study: &Study, findings: &Findings) -> Result<String, TableE
     page += "Measures by efficiency: the standard deviation β of ln demand about the power law of each, over the runs in which the block\n\
              rocks and stands; the smaller, the better. ζ = β/|b| is the proficiency.\n\n";
     for measure in Measure::ALL {
-        page += &format!("- {}: {}\n", measure.name(), measure.formula());
+        page += &format!("- {}: {}\n", measure.name(), formula(study, measure));
     }
     page += &format!("\n{}", TextTable::of(&fitted_table(findings))?.markdown());
     for ranking in &findings.ranking {

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use sprag_sim::keys::Described;
 use sprag_sim::scene::Scene;
 
+use super::findings::Findings;
 use super::measure::Measure;
+use super::pages::{demand_page, fragility_page, ranking_page};
 use super::study::{Scaling, Study};
 use super::study_file::StudyFile;
 
@@ -57,6 +59,28 @@ fn structures_change_the_scene() {
     assert_eq!(heavy.scene.file.device[1].mass_ratio, Some(1.0));
     assert!((small.scales.uplift_threshold_m_s2 - 9.80665 * 10.0_f64.to_radians()).abs() < 1e-12);
     assert!(!study.slender());
+}
+
+/// Pages name the threshold that measures were divided by: g tan α, and gα of slender blocks.
+#[test]
+fn pages_have_the_formulas_of_the_blocks_models() {
+    let pages = |structures: &str| {
+        let (study, findings) = (parse(&format!("{RECORDS}{structures}")).unwrap(), Findings::default());
+        [demand_page(&study, &findings), fragility_page(&study, &findings), ranking_page(&study, &findings)]
+            .map(Result::unwrap)
+            .concat()
+    };
+    let [full, slender] =
+        ["full", "slender"].map(|name| format!("[[structure]]\nname = '{name}'\nset = {{ 'block.geometry' = '{name}' }}\n"));
+    let (of_full, of_slender, of_both) = (pages(&full), pages(&slender), pages(&format!("{full}{slender}")));
+    assert!(of_full.contains("- pga: PGA/(g tan α)\n") && !of_full.contains("gα"), "{of_full}");
+    assert!(of_slender.contains("IM = p PGV/(gα),") && of_slender.contains("- pga: PGA/(gα)\n"), "{of_slender}");
+    assert!(!of_slender.contains("tan α"), "{of_slender}");
+    assert!(of_both.contains("IM = p PGV/(g tan α) (gα of slender blocks),"), "{of_both}");
+    assert!(
+        of_both.contains("- frequency: PGA/(p PGV)\n") && of_both.contains("- pga: PGA/(g tan α) (gα of slender blocks)\n"),
+        "{of_both}"
+    );
 }
 
 #[test]

@@ -127,7 +127,7 @@ fn of_motion(
         let scales = BlockScales { frequency_parameter_1_s: p, uplift_threshold_m_s2: threshold * GRAVITY };
         let of = |measure: Measure| measure.of(&record, 1.0, scales);
         vec![
-            group(Measure::Frequency.formula(), of(Measure::Frequency)),
+            group(&Measure::Frequency.formula(false), of(Measure::Frequency)),
             group(&format!("PGA/{unit}"), of(Measure::Pga) * table.scale),
         ]
     } else {
