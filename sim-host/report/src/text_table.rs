@@ -168,6 +168,7 @@ impl RowWriter for Cells<'_> {
                 (_, Value::Text(text)) => (*text).to_owned(),
                 (_, Value::Count(count)) => count.to_string(),
                 (Shown::Digits(digits), Value::Number(value)) => true_minus(&number(*value, digits)),
+                (Shown::Figures(figures), Value::Number(value)) => true_minus(&in_figures(*value, figures)),
                 (Shown::Percent, Value::Number(share)) => format!("{} %", number(100.0 * share, 1)),
                 (Shown::Change, Value::Number(ratio)) => change(ratio - 1.0),
             })
@@ -206,6 +207,18 @@ pub fn number(value: impl Into<Option<f64>>, digits: usize) -> String {
         Some(value) if value.is_finite() => format!("{value:.digits$}"),
         _ => "-".to_owned(),
     }
+}
+
+/// A number with so many decimals, or with as many `figures` where these would be fewer; with an exponent below 1e-4 and from 1e7 on.
+fn in_figures(value: f64, figures: usize) -> String {
+    let size = value.abs();
+    if !value.is_finite() || value == 0.0 || (0.1..1e7).contains(&size) {
+        return number(value, figures);
+    }
+    let exponential = format!("{value:.*e}", figures.saturating_sub(1));
+    let exponent = exponential.rsplit('e').next().and_then(|exponent| exponent.parse::<i32>().ok()).unwrap_or(0);
+    let decimals = usize::try_from(figures as i32 - 1 - exponent).unwrap_or(0);
+    if (1e-4..1e7).contains(&size) { format!("{value:.decimals$}") } else { exponential }
 }
 
 /// A relative change in percent with a sign and no decimals; a dash for none.

@@ -31,6 +31,8 @@ impl fmt::Display for Kind {
 pub enum Shown {
     /// As they are; numbers with so many decimals.
     Digits(usize),
+    /// Numbers of any size, with so many decimals, or as many figures where these would be fewer.
+    Figures(usize),
     /// A share, in percent with one decimal.
     Percent,
     /// A ratio, as the change in percent that it is.

@@ -99,6 +99,15 @@ fn what_is_no_number_is_a_dash() {
     assert_eq!([number(None, 1), number(f64::NAN, 1), number(f64::INFINITY, 1)], ["-", "-", "-"]);
 }
 
+/// A factor of a power law may have any size, and as 0.000 says nothing.
+#[test]
+fn numbers_of_any_size_keep_their_figures() {
+    let of = |value: f64| in_figures(value, 3);
+    assert_eq!([2.8874, 0.1234, 0.0, 1234.5678].map(of), ["2.887", "0.123", "0.000", "1234.568"]);
+    assert_eq!([0.099_96, 0.093_04, 4.3e-4, 4.304e-7, -2.5e9].map(of), ["0.100", "0.0930", "0.000430", "4.30e-7", "-2.50e9"]);
+    assert_eq!([f64::NAN, f64::INFINITY].map(of), ["-", "-"]);
+}
+
 #[test]
 fn changes_have_a_sign_and_no_negative_zero() {
     assert_eq!([-0.3, 0.004, 0.25, -0.004].map(change), ["\u{2212}30 %", "0 %", "+25 %", "0 %"]);

@@ -2,12 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use sprag_shared::observers::outcome::Outcome;
 use sprag_sim::keys::Described;
 use sprag_sim::scene::Scene;
 
+use super::demand::{Demand, DemandModel};
 use super::findings::Findings;
 use super::measure::Measure;
 use super::pages::{demand_page, fragility_page, ranking_page};
+use super::runs::Run;
 use super::study::{Scaling, Study};
 use super::study_file::StudyFile;
 
@@ -81,6 +84,17 @@ fn pages_have_the_formulas_of_the_blocks_models() {
         of_both.contains("- frequency: PGA/(p PGV)\n") && of_both.contains("- pga: PGA/(g tan α) (gα of slender blocks)\n"),
         "{of_both}"
     );
+}
+
+/// Demands of 1e-6 IM².
+#[test]
+fn a_small_factor_of_a_power_law_is_no_zero() {
+    let runs = [10.0, 20.0, 40.0].map(|intensity: f64| Run::of(0, intensity, Outcome::Safe, 1e-6 * intensity * intensity));
+    let runs: Vec<&Run> = runs.iter().collect();
+    let model = DemandModel::fit(&runs, (0, "pier"), (0, "none"), Demand::PeakRotation, Measure::Pgv);
+    let findings = Findings { demand: vec![model], ..Findings::default() };
+    let page = demand_page(&parse(RECORDS).unwrap(), &findings).unwrap();
+    assert!(page.contains("| 1.00e\u{2212}6 | 2.000 | 1.000 |"), "{page}");
 }
 
 #[test]

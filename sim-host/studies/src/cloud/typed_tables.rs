@@ -108,7 +108,7 @@ fn demand_fields<'s>() -> Fields<DemandRow<'s>> {
         .with(Column::count("overturned").shown("overturned", Shown::Digits(0)), |row| row.model.left_out.overturned.into())
         .with(Column::count("zero"), |row| row.model.left_out.zero.into())
         .with(Column::count("failed"), |row| row.model.left_out.failed.into())
-        .with(number("a").shown("a", Shown::Digits(3)), |row| row.law(|law| Some(law.a)))
+        .with(number("a").shown("a", Shown::Figures(3)), |row| row.law(|law| Some(law.a)))
         .with(number("b").shown("b", Shown::Digits(3)), |row| row.law(|law| Some(law.b)))
         .with(number("ln_a_standard_error"), |row| row.law(|law| Some(law.ln_a_standard_error)))
         .with(number("b_standard_error"), |row| row.law(|law| Some(law.b_standard_error)))
@@ -164,7 +164,7 @@ fn fragility_fields<'s>() -> Fields<&'s DeviceFragility> {
         .with(Column::count("zero"), |found| found.zero.into())
         .with(number("mu").shown("μ", Shown::Digits(3)), |found| curve(found, |curve| curve.mu))
         .with(number("beta").shown("β", Shown::Digits(3)), |found| curve(found, |curve| curve.beta))
-        .with(number("median").shown("median", Shown::Digits(2)), |found| curve(found, |curve| curve.median))
+        .with(number("median").shown("median", Shown::Figures(2)), |found| curve(found, |curve| curve.median))
         .with(number("mu_standard_error").shown("± of μ", Shown::Digits(3)), |found| {
             curve(found, |curve| curve.mu_standard_error)
         })
