@@ -59,7 +59,7 @@ pub struct ScaledParameters<S> {
 
 /// A growing `value` (0 or more) where it is compared with what it shall exceed: the instant at which both are equal but for rounding
 /// counts as past it.
-pub(crate) fn rounded_up<S: Real>(value: S) -> S {
+fn rounded_up<S: Real>(value: S) -> S {
     value * (S::ONE + S::EPSILON * S::of(16.0))
 }
 
@@ -182,9 +182,12 @@ impl<S: Real> ScaledParameters<S> {
     /// Dry friction at the rack of a standing flywheel that is coupled to it, and its growth: that of the bearings, as far as the
     /// plates transmit it; 1/s² and 1/s³.
     pub fn standing_friction(&self, wheel: &FlywheelState<S>) -> (S, S) {
-        let bearing = self.inertance * self.bearing_dry;
-        let (capacity, growth) = self.capacity_of(wheel);
-        if bearing <= rounded_up(capacity) { (bearing, S::ZERO) } else { (capacity, growth) }
+        if self.overcomes_bearings(wheel) { (self.inertance * self.bearing_dry, S::ZERO) } else { self.capacity_of(wheel) }
+    }
+
+    /// Whether plates transmit what starts a standing flywheel.
+    pub fn overcomes_bearings(&self, wheel: &FlywheelState<S>) -> bool {
+        self.inertance * self.bearing_dry <= rounded_up(self.capacity_of(wheel).0)
     }
 
     /// Deceleration of an idle or engaged flywheel by dry friction, 1/s².

@@ -2,7 +2,7 @@
 
 use super::{HybridState, HybridSystem};
 use crate::drivetrain::clutch_state::{Coupling, FlywheelState, Guard};
-use crate::drivetrain::scaled_parameters::{ScaledParameters, rounded_up};
+use crate::drivetrain::scaled_parameters::ScaledParameters;
 use crate::drivetrain::under_way::UnderWay;
 use crate::equation::clutch_rule::wheel_for;
 use crate::math::scalar::Real;
@@ -294,9 +294,11 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn ramps(&self, state: &mut HybridState<S>) {
         let parameters = &self.transmission.parameters;
         for wheel in state.device.wheels.iter_mut().filter(|_| parameters.rise_time > S::ZERO) {
-            if let (Some(sign), None) = (wheel.coupling.slip_sign(), wheel.turning) {
-                let capacity = parameters.capacity_of(wheel).0;
-                parameters.settle(wheel, sign.times(rounded_up(capacity)));
+            if let (Some(sign), None) = (wheel.coupling.slip_sign(), wheel.turning)
+                && parameters.overcomes_bearings(wheel)
+            {
+                // As [`ramp_due`] sees it: what it waits for no more has come.
+                wheel.turning = Some(sign);
             }
         }
     }

@@ -274,6 +274,40 @@ fn a_coil_drives_its_flywheel_by_an_exponential() {
     }
 }
 
+/// A standing flywheel turns from the instant at which rising plates overcome its bearings, by whatever rounding the clock comes to it: it turns, or
+/// that instant is still waited for.
+#[test]
+fn rising_plates_start_a_flywheel_whatever_rounding_says() {
+    let structure = pair(Geometry::Full, 1.0, 1.0).structure;
+    for tenths in 1..10 {
+        let drivetrain = Drivetrain {
+            engagement: Engagement::Friction { capacity_ratio: 0.1 },
+            flywheel: FlywheelLosses { dry_deceleration: 0.1 * f64::from(tenths), ..FlywheelLosses::default() },
+            actuation: Actuation { rise_time: 0.05, ..Actuation::default() },
+            ..Drivetrain::default()
+        };
+        let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+        let parameters = &machine.transmission.parameters;
+        let engaged = || {
+            let mut state = machine.released_at(0.02, -0.1, [0.0; 3]);
+            let wheel = &mut state.device.wheels[1];
+            (wheel.coupling, wheel.turning, wheel.commanded) = (Coupling::Slipping(Sign::Negative), None, true);
+            (wheel.spin, wheel.engaged_for) = (0.0, 0.0);
+            state
+        };
+        let (contact, growth) = parameters.capacity_of(&engaged().device.wheels[1]);
+        let starts = (parameters.inertance * parameters.bearing_dry - contact) / growth;
+        for roundings in -10..50 {
+            let mut state = engaged();
+            state.device.wheels[1].engaged_for = starts * (1.0 - 0.5 * f64::EPSILON * f64::from(roundings));
+            machine.ramps(&mut state);
+            let waits = machine.next_due(&state).unwrap() < 1e-9 * starts;
+            let turns = state.device.wheels[1].turning == Some(Sign::Negative);
+            assert!(turns != waits, "{tenths} at {roundings}: it turns: {turns}, it is waited for: {waits}");
+        }
+    }
+}
+
 /// A spring without a damper passes on what its twist says: the force does not jump where plates of rising capacity begin or end to slip.
 #[test]
 fn the_force_of_a_spring_does_not_jump_with_its_plates() {
