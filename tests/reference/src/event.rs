@@ -12,6 +12,8 @@ use crate::step::{BRAKE, IMPACT, INPUT, ROTATION, SPIN, VELOCITY};
 const MOST_ANSWERS: usize = 8;
 /// Ways on that are looked at where one clutch lets the block go and another stops it.
 const MOST_TURNS: usize = 3;
+/// Moments (1/s²) of links up to which they do not lift a block.
+const NO_PUSH: f64 = 1e-12;
 
 impl Model {
     /// A guard has reached zero.
@@ -263,12 +265,22 @@ impl Model {
             going.drive = state.drive;
             self.look_at_drive(&mut going, shaking);
             self.look_at_terminals(&mut going, shaking);
+        } else if state.rotation() == 0.0 && direction * self.link_push(&going) > NO_PUSH {
+            // It may rise against the acceleration that weight and ground alone would give it.
+            self.look_at_drive(&mut going, shaking);
         }
         if self.device.is_commanded() {
             self.command(&mut going);
             self.settle_springs(&mut going);
         }
         going
+    }
+
+    /// Moment of the links on a block at θ̇ = 0, over mR².
+    fn link_push(&self, state: &State) -> f64 {
+        let lever = self.pose(state.side(), state.rotation()).lever;
+        let force = |i: usize| self.link_force(&state.wheels[i], state.twist(i), -state.spin(i), state.time);
+        -lever * (force(0) + force(1)) / self.block.size
     }
 
     /// How much what pushes a standing block to one side exceeds its weight and the rack's friction, with open clutches.

@@ -195,7 +195,8 @@ impl<S: Real> HybridSystem<S> {
         self.start_clutches(state, time, observer);
     }
 
-    /// Uplift: θ̈ and the terminals' acceleration take the sign of the motion, and may have been zero until now.
+    /// Uplift: θ̈ and the terminals' acceleration take the sign of the motion, and may have been zero until now; that of terminals whose
+    /// flywheels lift the block may be the other.
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
@@ -204,6 +205,9 @@ impl<S: Real> HybridSystem<S> {
             self.look_at_drive(state);
             state.fresh[0] = false;
             self.look_at_terminals(state);
+        } else if self.breakaway(state, state.motion.side, state.motion.side).is_pushed(state.ground) {
+            self.look_at_drive(state);
+            state.fresh[0] = false;
         }
         observer.event(Event::Uplift, time, &state.motion);
     }

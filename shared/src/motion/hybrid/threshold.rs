@@ -54,6 +54,11 @@ impl<S: Real> Threshold<S> {
         self.at(ground) > self.rounding(ground)
     }
 
+    /// Whether the links of the device push that way, by more than rounding.
+    pub(super) fn is_pushed(&self, ground: Accelerations<S>) -> bool {
+        self.constant + self.dry + self.decay.0 > self.rounding(ground)
+    }
+
     /// |ü_g|/g below which it stays under zero, on a support that moves with the ground, while 1 + v̈_g/g is at least `lightest` (above 0).
     pub(super) fn least_horizontal(&self, lightest: S) -> S {
         (-(self.vertical * lightest + (self.constant + self.decay.0.larger(S::ZERO))) / self.horizontal.abs()).larger(S::ZERO)

@@ -5,7 +5,8 @@ use std::vec::Vec;
 use super::limits::engaging_at_speed;
 use super::maxwell::Swing;
 use super::standing::pushed_by_a_flywheel;
-use super::{pair, sine, structure, tight};
+use super::{Watcher, pair, sine, structure, tight};
+use crate::ground::{AnySegment, Linear};
 use crate::math::exp;
 use crate::motion::hybrid::HybridSystem;
 use crate::motion::hybrid::mode_output::Shaking;
@@ -121,6 +122,35 @@ fn a_coasting_flywheel_pushes_a_standing_block() {
             let flywheel = FlywheelLosses { viscous_rate: 0.5, dry_deceleration, brake_deceleration, drag_rate: 6.0 };
             let (uplift, expected) = pushed_by_a_flywheel(&structure, &open(engagement, flywheel), (1, 6.0), push);
             assert!((uplift - expected).abs() < 1e-9, "{engagement:?}, {flywheel:?}: {uplift} and {expected}");
+        }
+    }
+}
+
+/// A block that a flywheel lifts through its open clutch rises against the acceleration of Eq. 10, which knows weight and ground alone: its own
+/// clutch is commanded once these move it.
+#[test]
+fn a_block_that_a_flywheel_lifts_is_resisted_once_the_ground_moves_it() {
+    let structure = structure(Geometry::Slender, 10.0, DeviceKind::ClutchedPair, SIGMA, KinematicsKind::Consistent);
+    let block = &structure.block;
+    let (p, alpha, k) = (block.frequency_parameter(), block.slenderness(), SIGMA / block.inertia_ratio());
+    let (end, most, rate, delay) = (0.5, 1.5 * alpha, 6.0, 0.01);
+    let ground = AnySegment::Linear(Linear { start: 0.0, slope: -most / end });
+    let actuation = Actuation { engagement_delay: delay, ..Actuation::default() };
+    for engagement in CLUTCHES {
+        for push in [0.9, 0.1, 0.01, 0.001] {
+            let drivetrain = Drivetrain { actuation, ..open(engagement, dragged(rate)) };
+            let machine: HybridSystem<f64> = drivetrain.resolve(&structure, false).unwrap();
+            let mut start = machine.at_rest();
+            start.device.wheels[1].spin = push * p * p * alpha / (k * rate);
+            let mut nobody = ();
+            let mut watcher = Watcher::new(&mut nobody);
+            machine.advance(&tight(), &mut start.clone(), Shaking::level(&ground), end, &LIMITS, &mut watcher).unwrap();
+            let commanded = watcher.switches[0].0 - delay;
+            let mut then = start;
+            machine.advance(&tight(), &mut then, Shaking::level(&ground), commanded, &LIMITS, &mut ()).unwrap();
+            let moves = most * commanded / end - alpha + then.motion.rotation;
+            assert!(then.motion.rotation > 0.0, "{engagement:?}, {push}: it has risen");
+            assert!(moves.abs() < 1e-12, "{engagement:?}, {push}: commanded at {commanded} s, where {moves} moves the block");
         }
     }
 }
