@@ -16,6 +16,10 @@ const INSTANT: f64 = 1e-10;
 const GRAZE: usize = 20;
 /// A block that grazes stands still for this long (s); then the faster of both has won.
 const PAUSE: f64 = 1e-9;
+/// Steps (s) of a block whose clutch opens and closes without end …
+const CHATTER: f64 = 1e-6;
+/// … which does not any more where so many of them ask for the same.
+const ALIKE: usize = 1000;
 /// Rotations (rad) up to which a block has not moved: it was on the verge.
 const STANDS: f64 = 1e-15;
 /// So many events in one instant are a mode that contradicts itself.
@@ -185,6 +189,9 @@ impl<'a> Runner<'a> {
                 model.answer(&mut self.state, guard, shaking);
                 if at_once > GRAZE && self.state.velocity().abs() < 1e-6 * counted {
                     self.pause();
+                } else if at_once > GRAZE && guard == Guard::Command {
+                    self.chatter(stop);
+                    peak = peak.max(self.state.rotation().abs());
                 }
                 continue;
             }
@@ -224,6 +231,28 @@ impl<'a> Runner<'a> {
         self.state = self.ahead(self.state.time + PAUSE);
         let shaking = self.shaking(self.state.time);
         self.model.settle(&mut self.state, shaking);
+    }
+
+    /// A clutch that opens and closes without end, up to `stop` (s): a flywheel that runs ahead drives the block back over the zero of Eq. 10 while
+    /// it is engaged. Short steps, each with the command that its start asks for, until many ask for the same or another guard fires.
+    fn chatter(&mut self, stop: f64) {
+        let model = self.model;
+        let mut alike = 0;
+        while alike < ALIKE && self.state.time < stop {
+            let next = self.ahead(stop.min(self.state.time + CHATTER));
+            let shaking = self.shaking(next.time);
+            if guards(model, &next, shaking).iter().any(|(guard, value)| *value < 0.0 && *guard != Guard::Command) {
+                break;
+            }
+            let before = self.state.drive;
+            self.state = next;
+            model.look_at_drive(&mut self.state, shaking);
+            alike += 1;
+            if self.state.drive != before {
+                model.settle(&mut self.state, shaking);
+                alike = 0;
+            }
+        }
     }
 
     /// Kinks of the ground and clocks at a stop.
