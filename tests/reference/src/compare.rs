@@ -38,6 +38,13 @@ pub struct Difference {
 /// Rotations (over α) beyond which a fall is not compared: nothing comes back from there, and differences grow without bound.
 const FALLEN: f64 = 1.5;
 
+/// The outcome of a block that does not move.
+const STANDS: &str = "no-rocking";
+/// Residual of this program's ledger, over what came in, up to which it closes …
+pub const CLOSES: f64 = 1e-9;
+/// … and how often its steps are halved until it does.
+const MOST_HALVINGS: usize = 2;
+
 /// Compares histories at the samples that both have.
 pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     let overturned = ours.outcome.starts_with("overturned");
@@ -59,7 +66,7 @@ pub fn compare(ours: &Run, theirs: &Other, slenderness: f64) -> Difference {
     let since = pairs.iter().find(|(_, apart)| *apart > 1e-3 * history).map_or(0.0, |(time, _)| *time);
     let shares = ours.ledger.shares();
     let others = theirs.ledger.unwrap_or(shares);
-    let stands = ours.outcome == "no-rocking";
+    let stands = ours.outcome == STANDS;
     let residuals = if stands { [0.0; 2] } else { [shares.residual, others.residual] };
     let entries = if overturned || stands { 0.0 } else { shares.apart(&others) };
     Difference { same_outcome: ours.outcome == theirs.outcome, history, since, residuals, entries }
@@ -97,6 +104,7 @@ impl Tolerance {
 pub struct Subject {
     scene: Scene,
     folder: PathBuf,
+    effort: Effort,
     ours: Run,
     finer: OnceCell<Result<Run, String>>,
 }
@@ -108,8 +116,18 @@ impl Subject {
     /// What this program says when it cannot run the scene.
     pub fn of(text: &str, folder: &Path) -> Result<Subject, String> {
         let scene = Scene::parse(text)?;
-        let ours = run_with(&scene, 0, folder, Effort::default()).map_err(|error| format!("ours: {error}"))?;
-        Ok(Subject { scene, folder: folder.to_owned(), ours, finer: OnceCell::new() })
+        let run = |effort| run_with(&scene, 0, folder, effort).map_err(|error| format!("ours: {error}"));
+        let mut effort = Effort::default();
+        let mut ours = run(effort)?;
+        // Of a motion that is small beside what the ground asks for, the ledger needs shorter steps.
+        for _ in 0..MOST_HALVINGS {
+            if ours.outcome == STANDS || ours.ledger.shares().residual <= CLOSES {
+                break;
+            }
+            effort = effort.finer();
+            ours = run(effort)?;
+        }
+        Ok(Subject { scene, folder: folder.to_owned(), effort, ours, finer: OnceCell::new() })
     }
 
     /// The step of this program (s), which resolves the fastest rate.
@@ -129,7 +147,7 @@ impl Subject {
         if difference.same_outcome && apart <= tolerance.history && closes {
             return Ok(Verdict::Agree(difference));
         }
-        let finer = || run_with(&self.scene.nudged(), 0, &self.folder, Effort::default().finer());
+        let finer = || run_with(&self.scene.nudged(), 0, &self.folder, self.effort.finer());
         let finer = self.finer.get_or_init(finer).as_ref().map_err(|error| format!("ours: {error}"))?;
         let own = compare(&self.ours, &Other::from(finer), slenderness);
         // What one program loses to rounding, the other loses elsewhere: a tenth of the difference is enough to decide.

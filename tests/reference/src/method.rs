@@ -1,6 +1,6 @@
 //! Sprag's methods, and how close each has to come.
 
-use crate::compare::Tolerance;
+use crate::compare::{CLOSES, Tolerance};
 
 /// One of Sprag's methods.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,8 +38,8 @@ impl Method {
     /// Differences beyond these are reported.
     pub fn tolerance(self) -> Tolerance {
         match self {
-            Method::Series => Tolerance { history: 1e-6, residuals: [1e-9, 1e-10] },
-            Method::RungeKutta => Tolerance { history: 1e-5, residuals: [1e-9, 1e-7] },
+            Method::Series => Tolerance { history: 1e-6, residuals: [CLOSES, 1e-10] },
+            Method::RungeKutta => Tolerance { history: 1e-5, residuals: [CLOSES, 1e-7] },
         }
     }
 }

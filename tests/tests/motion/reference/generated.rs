@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use sprag_reference::compare::{CLOSES, Subject};
 use sprag_reference::effort::Effort;
 use sprag_reference::generate::scene;
 use sprag_reference::scene::Scene;
@@ -33,6 +34,18 @@ fn ledgers_close() {
         assert!(residual < 1e-9, "scene {number}, {}: {residual:e}", generated.family);
     }
     std::fs::remove_dir_all(&folder).expect("a folder that was there");
+}
+
+/// What the ground asks for is far more than this motion, 1e-4 of α: its ledger closes at half the step.
+#[test]
+fn a_ledger_that_does_not_close_asks_for_shorter_steps() {
+    let generated = scene(77, 4960);
+    let folder = tempfile::tempdir().expect("a folder");
+    generated.write_records(folder.path()).expect("records");
+    let own = run(&Scene::parse(&generated.text).expect("a scene"), 0, folder.path()).expect("a run");
+    assert!(own.ledger.shares().residual > CLOSES);
+    let subject = Subject::of(&generated.text, folder.path()).expect("a run");
+    assert_eq!(subject.step(), own.step / 2.0);
 }
 
 /// Scenes in which two programs had differed (`scenes/`, whose first lines say by what): this one runs them.
