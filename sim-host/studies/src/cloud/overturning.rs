@@ -9,8 +9,25 @@ use crate::statistics::{
     Bootstrap, BootstrapError, Fragility, FragilityBands, FragilityError, Observation, fragility, fragility_bands,
 };
 
-/// Intensities at which a curve and its band are drawn.
+/// Equal steps of the intensity at whose ends a curve and its band are drawn.
 const CURVE_POINTS: u32 = 120;
+
+/// Equal steps of the probability, beside those, where a curve rises from the first to the last within fewer steps of the intensity.
+const RISE_POINTS: u32 = 20;
+
+/// Where to draw `fragility` and its band up to `highest`.
+fn drawn_at(fragility: &Fragility, highest: f64) -> Vec<f64> {
+    let step = highest / f64::from(CURVE_POINTS);
+    let mut all: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
+    if let Some(curve) = fragility.curve() {
+        let rise: Vec<f64> = (1..RISE_POINTS).map(|k| curve.intensity(f64::from(k) / f64::from(RISE_POINTS))).collect();
+        if rise[rise.len() - 1] - rise[0] < f64::from(RISE_POINTS) * step {
+            all.extend(rise.into_iter().filter(|intensity| *intensity < highest));
+            all.sort_by(f64::total_cmp);
+        }
+    }
+    all
+}
 
 /// The fragility of one structure and device (Eq. 26).
 #[derive(Clone, Debug, Serialize)]
@@ -111,9 +128,9 @@ impl DeviceFragility {
             let (structure, device) = names();
             OverturningError::Fit { structure, device, error: Box::new(error) }
         })?;
-        let intensities: Vec<f64> = (1..=CURVE_POINTS).map(|k| highest * f64::from(k) / f64::from(CURVE_POINTS)).collect();
         let bands = match fragility {
             Fragility::Estimated(_) => {
+                let intensities = drawn_at(&fragility, highest);
                 Some(fragility_bands(&observations, &intensities, bootstrap, interrupt).map_err(|error| {
                     let (structure, device) = names();
                     OverturningError::Bands { structure, device, error: Box::new(error) }
@@ -201,6 +218,16 @@ mod tests {
         assert_eq!(found.median_ratio, Some(1.0));
         let [tenth, half] = found.at_first.unwrap();
         assert!((tenth - 0.1).abs() < 1e-12 && (half - 0.5).abs() < 1e-12);
+    }
+
+    /// Intensities from 0.005 to 60, of which a curve takes the first: it is no polygon of a few lines.
+    #[test]
+    fn a_curve_that_rises_within_a_few_steps_is_drawn_as_a_curve() {
+        let found = fit(&runs(&ROCKING.map(|(intensity, overturned)| (0.01 * intensity, overturned)))).unwrap();
+        let (curve, drawn) = (found.fragility.curve().unwrap(), drawn_at(&found.fragility, 60.0));
+        let probabilities: Vec<f64> = std::iter::once(0.0).chain(drawn.iter().map(|at| curve.probability(*at))).collect();
+        assert!(probabilities.windows(2).all(|ends| (0.0..0.051).contains(&(ends[1] - ends[0]))), "{probabilities:?}");
+        assert!((drawn[drawn.len() - 1] - 60.0).abs() < 1e-12);
     }
 
     #[test]

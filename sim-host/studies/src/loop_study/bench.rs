@@ -84,6 +84,12 @@ pub enum StudyError {
     /// A record.
     #[error("{0}")]
     Ground(#[from] GroundError),
+    /// A record that is to be scaled to a peak.
+    #[error("{}: the ground does not move: no factor gives it a peak", .file.display())]
+    Still {
+        /// Its file.
+        file: PathBuf,
+    },
     /// A loop.
     #[error("{motion}: {failure}")]
     Loop {

@@ -168,9 +168,13 @@ impl<'a> Records<'a> {
     /// Records of a study, read from their files.
     ///
     /// # Errors
-    /// [`StudyError`] names the first file that cannot be read.
+    /// [`StudyError`] names the first file that cannot be read or in which the ground does not move.
     pub fn new(motions: &'a [Motion]) -> Result<Records<'a>, StudyError> {
-        Ok(Records { motions, peaks: records_of(motions)?.iter().map(|record| record.pga_m_s2).collect() })
+        let peaks: Vec<f64> = records_of(motions)?.iter().map(|record| record.pga_m_s2).collect();
+        match motions.iter().zip(&peaks).find(|(_, peak)| **peak <= 0.0) {
+            Some((Motion::Record { file, .. }, _)) => Err(StudyError::Still { file: file.clone() }),
+            _ => Ok(Records { motions, peaks }),
+        }
     }
 
     /// How many.
@@ -211,6 +215,7 @@ mod tests {
     use super::*;
     use crate::loop_study::bench::{Conditions, Variant, with_loop};
     use sprag_sim::interrupt::Interrupt;
+    use std::io::Write as _;
 
     /// Whatever the family, the largest ground acceleration is the one that was asked for.
     #[test]
@@ -224,6 +229,15 @@ mod tests {
             let ratio = largest.unwrap() / (GRAVITY * math::tan(15_f64.to_radians()));
             assert!((ratio - 3.0).abs() < 1e-4, "{}: {ratio}", family.name());
         }
+    }
+
+    #[test]
+    fn a_record_without_motion_is_named() {
+        let mut file = tempfile::NamedTempFile::with_suffix(".csv").unwrap();
+        write!(file, "time_s,acc_m_s2\n0,0\n0.01,0\n0.02,0\n").unwrap();
+        let motions = [Motion::Record { file: file.path().to_owned(), reading: RecordTable::default(), scale: 1.0 }];
+        let error = Records::new(&motions).unwrap_err();
+        assert_eq!(error.to_string(), format!("{}: the ground does not move: no factor gives it a peak", file.path().display()));
     }
 
     #[test]

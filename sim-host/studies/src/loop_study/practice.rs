@@ -171,7 +171,7 @@ fn pooled(of: &[Comparison]) -> Vec<String> {
     vec![
         number(100.0 * all.size(0.5), 3),
         number(100.0 * all.size(0.95), 2),
-        format!("{} to {}", number(least, 2), number(most, 2)),
+        if all.changes.is_empty() { "-".to_owned() } else { format!("{} to {}", number(least, 2), number(most, 2)) },
         all.overturned.to_string(),
         all.motions.to_string(),
     ]

@@ -174,8 +174,13 @@ fn plus_minus(width: f64) -> String {
     format!("100 % ± {}", percent(width))
 }
 
+/// A share that is neither none nor all is not shown as either.
 fn percent_of(share: f64) -> String {
-    format!("{:.0} %", 100.0 * share)
+    match share {
+        share if share > 0.0 && share < 0.005 => "less than 1 %".to_owned(),
+        share if share < 1.0 && share > 0.995 => "more than 99 %".to_owned(),
+        share => format!("{:.0} %", 100.0 * share),
+    }
 }
 
 fn capital(text: &str) -> String {
@@ -362,4 +367,15 @@ fn left_out_of(device: &DeviceTable) -> Vec<String> {
         lines.push("The device's own weight rests on its support, not on the block.".to_owned());
     }
     lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_all_is_100_percent_and_only_none_is_0() {
+        let shares = [0.0, 0.0005, 0.0051, 0.5, 0.9949, 0.9995, 1.0];
+        assert_eq!(shares.map(percent_of), ["0 %", "less than 1 %", "1 %", "50 %", "99 %", "more than 99 %", "100 %"]);
+    }
 }
