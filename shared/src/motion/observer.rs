@@ -98,3 +98,70 @@ impl<S: Real> Observer<S> for () {
         false
     }
 }
+
+/// What an observer hands on to each `$observer` of `$pattern`.
+macro_rules! hand_on {
+    ($self:ident: $pattern:pat = $observers:expr; $($observer:ident),+) => {
+        #[inline]
+        fn interval(&mut $self, output: &dyn DenseOutput<S>, interval: &MonotoneInterval<S>) {
+            if let $pattern = $observers { $($observer.interval(output, interval);)+ }
+        }
+        #[inline]
+        fn device_interval(&mut $self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+            if let $pattern = $observers { $($observer.device_interval(output, interval);)+ }
+        }
+        #[inline]
+        fn device_at_rest(&mut $self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
+            if let $pattern = $observers { $($observer.device_at_rest(output, interval);)+ }
+        }
+        #[inline]
+        fn event(&mut $self, event: Event, time: S, state: &BlockState<S>) {
+            if let $pattern = $observers { $($observer.event(event, time, state);)+ }
+        }
+        #[inline]
+        fn decay(&mut $self, decay: &Decay<S>) {
+            if let $pattern = $observers { $($observer.decay(decay);)+ }
+        }
+        #[inline]
+        fn accumulation(&mut $self, tail: &Accumulation<S>) {
+            if let $pattern = $observers { $($observer.accumulation(tail);)+ }
+        }
+        #[inline]
+        fn bounce(&mut $self, way: (Sign, Sign), acceleration: S, time: S) {
+            if let $pattern = $observers { $($observer.bounce(way, acceleration, time);)+ }
+        }
+        #[inline]
+        fn device_bounce(&mut $self, side: Sign, time: S, snapshot: &dyn Fn() -> Snapshot<S>) {
+            if let $pattern = $observers { $($observer.device_bounce(side, time, snapshot);)+ }
+        }
+    };
+}
+
+/// Two observers, in order.
+#[allow(irrefutable_let_patterns)]
+impl<S: Real, A: Observer<S>, B: Observer<S>> Observer<S> for (A, B) {
+    fn every_swing(&self) -> bool {
+        self.0.every_swing() || self.1.every_swing()
+    }
+
+    hand_on!(self: (first, second) = self; first, second);
+}
+
+/// An observer, or nobody.
+impl<S: Real, O: Observer<S>> Observer<S> for Option<O> {
+    fn every_swing(&self) -> bool {
+        self.as_ref().is_some_and(O::every_swing)
+    }
+
+    hand_on!(self: Some(observer) = self; observer);
+}
+
+/// An observer elsewhere.
+#[allow(irrefutable_let_patterns)]
+impl<S: Real, O: Observer<S> + ?Sized> Observer<S> for &mut O {
+    fn every_swing(&self) -> bool {
+        (**self).every_swing()
+    }
+
+    hand_on!(self: observer = &mut **self; observer);
+}

@@ -10,12 +10,8 @@ use sprag_loops::{Method, hybrid};
 use sprag_shared::ground::harmonic::MavroeidisPapageorgiou;
 use sprag_shared::ground::{AnySegment, DampedOscillation, Harmonics, Linear, Ricker};
 use sprag_shared::math;
-use sprag_shared::math::sign::Sign;
-use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
-use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::impact_accumulation::Accumulation;
-use sprag_shared::motion::state::{BlockState, Phase};
+use sprag_shared::motion::state::Phase;
 use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::observers::counted_swing::CountedSwing;
@@ -28,9 +24,9 @@ use sprag_shared::structure::drivetrain::{Actuation, Delay, Drivetrain, Engageme
 use sprag_shared::structure::mount::Mount;
 use sprag_shared::structure::{Restitution, Structure};
 use sprag_sim::batch::case::TIGHT;
-use sprag_sim::ground_motion::{Component, GroundMotion, Segment};
+use sprag_sim::ground_motion::{Component, GroundMotion};
 use sprag_sim::side_by_side::InPieces;
-use sprag_sim::simulation::drive::{Course, Overturning, Segmented};
+use sprag_sim::simulation::drive::{Course, Overturning};
 
 use super::lanes_under_pulses::have_the_same_bits;
 use super::lanes_under_records::motion;
@@ -92,42 +88,7 @@ fn structures_with(geometry: Geometry, kind: DeviceKind, kinematics: KinematicsK
 }
 
 /// Peaks, checks and the use of coils, at once.
-struct All(Peaks<f64>, Checks<f64>, CoilUse);
-
-impl Observer<f64> for All {
-    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.interval(output.motion(), interval);
-        self.1.device_interval(output, interval);
-        self.2.device_interval(output, interval);
-    }
-
-    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.1.device_at_rest(output, interval);
-        self.2.device_at_rest(output, interval);
-    }
-
-    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        self.0.event(event, time, state);
-        self.1.event(event, time, state);
-        self.2.event(event, time, state);
-    }
-
-    fn accumulation(&mut self, tail: &Accumulation<f64>) {
-        self.0.accumulation(tail);
-        self.2.accumulation(tail);
-    }
-
-    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
-        self.1.device_bounce(side, time, snapshot);
-    }
-}
-
-impl Segmented for All {
-    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
-        self.0.segment(start, segment);
-        self.1.origin = start;
-    }
-}
+type All = (Peaks<f64>, (Checks<f64>, CoilUse));
 
 /// Checks of forces, and with `all` of everything else.
 fn checks(structure: &Structure, all: bool) -> Checks<f64> {
@@ -169,7 +130,7 @@ fn shaken(records: &[Samples], vertical: bool) -> Vec<Moving<'_>> {
 fn alone(structure: &Structure, system: &HybridSystem<f64>, moving: &Moving<'_>) -> (HybridState<f64>, All) {
     let Moving { level, vertical, .. } = moving;
     let course = Course { vertical: vertical.as_ref(), ..Course::of(structure, level, FREE_TIME, Overturning::Reached) };
-    let (mut state, mut all) = (system.at_rest(), All(Peaks::default(), checks(structure, true), coils(structure)));
+    let (mut state, mut all) = (system.at_rest(), (Peaks::default(), (checks(structure, true), coils(structure))));
     let method = hybrid(Method::Adaptive(TIGHT));
     course.follow_machine(system, &*method, &mut state, &mut all, || true).unwrap();
     (state, all)
@@ -208,7 +169,7 @@ fn compare(structures: Vec<Structure>, drivetrain: &Drivetrain, motions: &[Movin
             for (sum, number) in seen.steps.iter_mut().zip([plain, located, by_core]) {
                 *sum += number;
             }
-            let (state, All(peaks, checked, used)) = alone(&structure, &system, moving);
+            let (state, (peaks, (checked, used))) = alone(&structure, &system, moving);
             let case = format!("{structure:?} {drivetrain:?} {:?}: {found:?} {state:?} {peaks:?}", block.ground);
             seen.phases[state.motion.phase as usize] += 1;
             assert_eq!(

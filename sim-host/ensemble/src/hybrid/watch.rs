@@ -21,43 +21,29 @@ pub(super) struct Watch<'a> {
 impl Observer<f64> for Watch<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         self.peaks.interval(output.motion(), interval);
-        if let Some(checks) = self.checks.as_mut().filter(|_| self.pressed) {
-            checks.device_interval(output, interval);
+        if self.pressed {
+            self.checks.device_interval(output, interval);
         }
-        if let Some(coils) = &mut self.coils {
-            coils.device_interval(output, interval);
-        }
+        self.coils.device_interval(output, interval);
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        if let Some(checks) = &mut self.checks {
-            checks.device_at_rest(output, interval);
-        }
-        if let Some(coils) = &mut self.coils {
-            coils.device_at_rest(output, interval);
-        }
+        self.checks.device_at_rest(output, interval);
+        self.coils.device_at_rest(output, interval);
     }
 
     fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
         self.peaks.event(event, time, state);
-        if let Some(checks) = &mut self.checks {
-            checks.event(event, time, state);
-        }
-        if let Some(coils) = &mut self.coils {
-            coils.event(event, time, state);
-        }
+        self.checks.event(event, time, state);
+        self.coils.event(event, time, state);
     }
 
     fn accumulation(&mut self, tail: &Accumulation<f64>) {
         self.peaks.accumulation(tail);
-        if let Some(coils) = &mut self.coils {
-            coils.accumulation(tail);
-        }
+        self.coils.accumulation(tail);
     }
 
     fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
-        if let Some(checks) = &mut self.checks {
-            checks.device_bounce(side, time, snapshot);
-        }
+        self.checks.device_bounce(side, time, snapshot);
     }
 }

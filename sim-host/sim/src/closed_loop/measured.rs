@@ -1,10 +1,5 @@
 //! A closed loop as the run of its device: outcome and peaks, and what the scene's `[checks]` ask of forces, travel, teeth and coils.
 
-use sprag_shared::math::sign::Sign;
-use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
-use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::state::BlockState;
-use sprag_shared::observers::checks::Checks;
 use sprag_shared::observers::coil_use::{CoilUse, CoilUses};
 
 use super::disturbance::Disturbance;
@@ -12,12 +7,10 @@ use super::driver::Driver;
 use super::plant::Extremes;
 use super::run::{Ending, Looks, Tick, TickObserver, follow_fall};
 use super::{LoopFailure, LoopTask};
-use crate::ground_motion::Segment;
 use crate::scene::checks::ChecksTable;
 use crate::simulation::DeviceRun;
 use crate::simulation::demand::Demand;
 use crate::simulation::device_run::Found;
-use crate::simulation::drive::Segmented;
 use crate::simulation::run::Task;
 
 /// The coils of both clutches, as the controller drives them.
@@ -66,36 +59,6 @@ impl TickObserver for Both<'_> {
     }
 }
 
-/// What a study counts, and the checks.
-struct Checked(Extremes, Checks<f64>);
-
-impl Observer<f64> for Checked {
-    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.device_interval(output, interval);
-        self.1.device_interval(output, interval);
-    }
-
-    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.1.device_at_rest(output, interval);
-    }
-
-    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        self.0.event(event, time, state);
-        self.1.event(event, time, state);
-    }
-
-    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
-        self.1.device_bounce(side, time, snapshot);
-    }
-}
-
-impl Segmented for Checked {
-    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
-        self.0.segment(start, segment);
-        self.1.origin = start;
-    }
-}
-
 impl LoopTask<'_> {
     fn coils(&self) -> Commanded {
         Commanded { used: CoilUse::default(), fall: None, overturned: false, period: self.clock().period }
@@ -110,7 +73,7 @@ impl LoopTask<'_> {
         ticks: &mut dyn TickObserver,
     ) -> Result<(Ending, Extremes, Demand), LoopFailure> {
         let task = self.task();
-        let mut watched = Checked(Extremes::default(), task.checks(&task.loaded()?)?);
+        let mut watched = (Extremes::default(), task.checks(&task.loaded()?)?);
         let mut seen = Both(self.coils(), ticks);
         let ending = self.run_with(driver, disturbance, &mut watched, &mut seen)?;
         let demand = Demand::of(&task, table, &watched.1, table.coil.map(|_| seen.0.uses()));

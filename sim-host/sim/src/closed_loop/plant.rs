@@ -5,16 +5,12 @@ use sprag_shared::equation::Accelerations;
 use sprag_shared::equation::body::Body;
 use sprag_shared::ground::GroundSegment;
 use sprag_shared::math::scalar::Real;
-use sprag_shared::math::sign::Sign;
-use sprag_shared::method::dense_output::DenseOutput;
 use sprag_shared::method::fixed::{FixedStep, Scheme};
-use sprag_shared::motion::device_snapshot::{DeviceOutput, Snapshot};
+use sprag_shared::motion::device_snapshot::DeviceOutput;
 use sprag_shared::motion::hybrid::footing::Footing;
 use sprag_shared::motion::hybrid::mode_output::Shaking;
 use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::observer::{Event, MonotoneInterval, Observer};
-use sprag_shared::motion::rest::free_decay::Decay;
-use sprag_shared::motion::rest::impact_accumulation::Accumulation;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
 
 use super::path::Path;
@@ -216,7 +212,7 @@ impl<'a> Plant<'a> {
     pub fn order(&mut self, wanted: [bool; 2], watcher: &mut dyn Watcher) {
         watcher.segment(self.time, self.segment());
         self.shocks.origin = self.time;
-        self.machine.order(&mut self.state, wanted, &mut Watched(watcher, &mut self.shocks, &mut self.path));
+        self.machine.order(&mut self.state, wanted, &mut (watcher, (&mut self.shocks, &mut self.path)));
     }
 
     /// Follows it up to the last of `instants` (s, ascending), and gives `see` the truth at each of them; where it goes along a straight line,
@@ -276,7 +272,7 @@ impl<'a> Plant<'a> {
                     let vertical = pieces.vertical.as_ref().map(|piece| piece.after(offset));
                     let shaking = shaking(&horizontal, vertical.as_ref());
                     if !self.machine.stands_through(&self.footing, &mut self.state, shaking, duration) {
-                        let mut watched = Watched(watcher, &mut self.shocks, &mut self.path);
+                        let mut watched = (&mut *watcher, (&mut self.shocks, &mut self.path));
                         let ended =
                             self.method.advance(&self.machine, &mut self.state, shaking, duration, &self.limits, &mut watched);
                         ended.map_err(|stopped| stopped.after(self.time))?;
@@ -328,52 +324,6 @@ impl<'a> Plant<'a> {
         let acceleration = self.machine.acceleration_now(&self.state, &self.posture.configuration);
         let moving = (self.state.motion.velocity, acceleration);
         self.places.truth(&self.posture, moving, self.shocks.at(self.time), self.ground())
-    }
-}
-
-/// A watcher, and what sensors need to know.
-struct Watched<'a>(&'a mut dyn Watcher, &'a mut Shocks, &'a mut Path);
-
-// What sensors need is in the motion; all else is the watcher's alone.
-impl Observer<f64> for Watched<'_> {
-    fn every_swing(&self) -> bool {
-        self.0.every_swing()
-    }
-
-    fn interval(&mut self, output: &dyn DenseOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.interval(output, interval);
-    }
-
-    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.device_interval(output, interval);
-        self.1.device_interval(output, interval);
-        self.2.device_interval(output, interval);
-    }
-
-    fn device_at_rest(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.device_at_rest(output, interval);
-    }
-
-    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        self.0.event(event, time, state);
-        self.1.event(event, time, state);
-        self.2.event(event, time, state);
-    }
-
-    fn decay(&mut self, decay: &Decay<f64>) {
-        self.0.decay(decay);
-    }
-
-    fn accumulation(&mut self, tail: &Accumulation<f64>) {
-        self.0.accumulation(tail);
-    }
-
-    fn bounce(&mut self, way: (Sign, Sign), acceleration: f64, time: f64) {
-        self.0.bounce(way, acceleration, time);
-    }
-
-    fn device_bounce(&mut self, side: Sign, time: f64, snapshot: &dyn Fn() -> Snapshot<f64>) {
-        self.0.device_bounce(side, time, snapshot);
     }
 }
 

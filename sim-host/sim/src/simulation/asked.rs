@@ -64,36 +64,22 @@ impl<S: Real> Observer<S> for Asked<S> {
     // What nobody asks for costs a look at two options, and no call.
     #[inline(always)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        if let Some(energy) = &mut self.energy {
-            energy.device_interval(output, interval);
-        }
-        if let Some(coils) = &mut self.coils {
-            coils.device_interval(output, interval);
-        }
+        self.energy.device_interval(output, interval);
+        self.coils.device_interval(output, interval);
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        if let Some(energy) = &mut self.energy {
-            energy.device_at_rest(output, interval);
-        }
-        if let Some(coils) = &mut self.coils {
-            coils.device_at_rest(output, interval);
-        }
+        self.energy.device_at_rest(output, interval);
+        self.coils.device_at_rest(output, interval);
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
-        if let Some(energy) = &mut self.energy {
-            energy.event(event, time, state);
-        }
-        if let Some(coils) = &mut self.coils {
-            coils.event(event, time, state);
-        }
+        self.energy.event(event, time, state);
+        self.coils.event(event, time, state);
     }
 
     fn accumulation(&mut self, tail: &Accumulation<S>) {
-        if let Some(coils) = &mut self.coils {
-            coils.accumulation(tail);
-        }
+        self.coils.accumulation(tail);
     }
 }
 

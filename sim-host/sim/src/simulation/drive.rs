@@ -10,6 +10,8 @@ use sprag_shared::motion::hybrid::{HybridState, HybridSystem};
 use sprag_shared::motion::ideal::IdealSystem;
 use sprag_shared::motion::observer::Observer;
 use sprag_shared::motion::state::{BlockState, Limits, Phase, Stopped};
+use sprag_shared::observers::checks::Checks;
+use sprag_shared::observers::coil_use::CoilUse;
 use sprag_shared::observers::peaks::Peaks;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry};
@@ -28,6 +30,23 @@ pub trait Segmented {
 impl<S: Real> Segmented for Peaks<S> {
     fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
         self.origin = S::of(start);
+    }
+}
+
+impl<S: Real> Segmented for Checks<S> {
+    fn segment(&mut self, start: f64, _segment: Option<&Segment>) {
+        self.origin = S::of(start);
+    }
+}
+
+impl Segmented for CoilUse {
+    fn segment(&mut self, _start: f64, _segment: Option<&Segment>) {}
+}
+
+impl<A: Segmented, B: Segmented> Segmented for (A, B) {
+    fn segment(&mut self, start: f64, segment: Option<&Segment>) {
+        self.0.segment(start, segment);
+        self.1.segment(start, segment);
     }
 }
 

@@ -34,26 +34,20 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.recorder.device_interval(output, interval);
         self.peaks.interval(output.motion(), interval);
-        if let Some(checks) = &mut self.checks {
-            checks.device_interval(output, interval);
-        }
+        self.checks.device_interval(output, interval);
         self.asked.device_interval(output, interval);
     }
 
     fn device_at_rest(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.recorder.device_at_rest(output, interval);
-        if let Some(checks) = &mut self.checks {
-            checks.device_at_rest(output, interval);
-        }
+        self.checks.device_at_rest(output, interval);
         self.asked.device_at_rest(output, interval);
     }
 
     fn event(&mut self, event: Event, time: S, state: &BlockState<S>) {
         Observer::<S>::event(&mut self.recorder, event, time, state);
         self.peaks.event(event, time, state);
-        if let Some(checks) = &mut self.checks {
-            checks.event(event, time, state);
-        }
+        self.checks.event(event, time, state);
         self.asked.event(event, time, state);
     }
 
@@ -64,9 +58,7 @@ impl<S: Real> Observer<S> for Watchers<'_, S> {
     }
 
     fn device_bounce(&mut self, side: Sign, time: S, snapshot: &dyn Fn() -> Snapshot<S>) {
-        if let Some(checks) = &mut self.checks {
-            checks.device_bounce(side, time, snapshot);
-        }
+        self.checks.device_bounce(side, time, snapshot);
     }
 }
 

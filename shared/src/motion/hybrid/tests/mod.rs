@@ -101,19 +101,6 @@ impl<'o> Watcher<'o> {
     }
 }
 
-/// Pair of observers, called in order.
-impl<A: Observer<f64>, B: Observer<f64>> Observer<f64> for (A, B) {
-    fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
-        self.0.device_interval(output, interval);
-        self.1.device_interval(output, interval);
-    }
-
-    fn event(&mut self, event: Event, time: f64, state: &BlockState<f64>) {
-        self.0.event(event, time, state);
-        self.1.event(event, time, state);
-    }
-}
-
 impl Observer<f64> for Watcher<'_> {
     fn device_interval(&mut self, output: &dyn DeviceOutput<f64>, interval: &MonotoneInterval<f64>) {
         let (rotation, velocity) = (interval.last.rotation, interval.last.velocity);
