@@ -31,7 +31,6 @@ pub fn columns(with_errors: bool) -> Vec<Column> {
 /// Gives the row of the case `id` to `writer`.
 fn write(writer: &mut dyn RowWriter, id: &str, (result, error): &Found) -> Result<(), TableError> {
     let peak = |value: f64| Value::from((!result.outcome.overturned()).then_some(value));
-    let certain = |certain: bool| Value::Text(if certain { "true" } else { "false" });
     let plain = [
         Value::Text(id),
         Value::Text(result.outcome.name()),
@@ -43,7 +42,7 @@ fn write(writer: &mut dyn RowWriter, id: &str, (result, error): &Found) -> Resul
     ];
     let Some(error) = error else { return writer.row(&plain) };
     let errors = [
-        certain(error.outcome_certain),
+        error.outcome_certain.into(),
         peak(error.peak_rotation),
         peak(error.peak_acceleration),
         result.first_impact_time.map(|_| error.first_impact_time).into(),

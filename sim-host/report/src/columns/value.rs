@@ -37,6 +37,12 @@ impl From<usize> for Value<'_> {
     }
 }
 
+impl From<bool> for Value<'_> {
+    fn from(truth: bool) -> Self {
+        Value::Text(if truth { "true" } else { "false" })
+    }
+}
+
 impl<'a> From<&'a str> for Value<'a> {
     fn from(text: &'a str) -> Self {
         Value::Text(text)

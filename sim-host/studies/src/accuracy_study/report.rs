@@ -14,7 +14,6 @@ pub fn row_table<'s>(rows: &'s [RowText<'s>]) -> impl Table {
 
 fn fields<'s>() -> Fields<&'s RowText<'s>> {
     let number = |name: &str| Column::number(name).or_nothing();
-    let truth = |truth: bool| if truth { "true" } else { "false" };
     Fields::<&'s RowText<'s>>::default()
         .with(Column::text("device"), |row| row.device.into())
         .with(Column::text("method"), |row| row.method.into())
@@ -23,7 +22,7 @@ fn fields<'s>() -> Fields<&'s RowText<'s>> {
         .with(Column::text("math"), |row| row.math.into())
         .with(Column::text("setting"), |row| row.setting.into())
         .with(Column::number("value"), |row| row.value.into())
-        .with(Column::text("outcome_right"), move |row| truth(row.outcome_right).into())
+        .with(Column::text("outcome_right"), |row| row.outcome_right.into())
         .with(number("peak_rotation_error"), |row| row.peak_rotation_error.into())
         .with(number("history_error"), |row| row.history_error.into())
         .with(number("wrong_outcome_share"), |row| row.wrong_outcome_share.into())
@@ -31,7 +30,7 @@ fn fields<'s>() -> Fields<&'s RowText<'s>> {
         .with(Column::number("nanoseconds_per_s"), |row| row.nanoseconds_per_s.into())
         .with(Column::count("board_instructions_per_step").or_nothing(), |row| row.board_instructions_per_step.into())
         .with(number("board_cycles_per_step"), |row| row.board_cycles_per_step.into())
-        .with(Column::text("on_pareto_front"), move |row| truth(row.on_pareto_front).into())
+        .with(Column::text("on_pareto_front"), |row| row.on_pareto_front.into())
 }
 
 /// Errors from which an order is read: above rounding.

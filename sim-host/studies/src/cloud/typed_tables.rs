@@ -59,11 +59,8 @@ fn run_fields<'s>(study: &Study) -> Fields<RunRow<'s>> {
     if !study.asks_for_errors() {
         return fields;
     }
-    let certain = |certain: bool| if certain { "true" } else { "false" };
     fields
-        .with(Column::text("outcome_certain").or_nothing(), move |row| {
-            row.error().map(|error| certain(error.outcome_certain)).into()
-        })
+        .with(Column::text("outcome_certain").or_nothing(), |row| row.error().map(|error| error.outcome_certain).into())
         .with(number("peak_rotation_error"), |row| row.error().map(|error| error.peak_rotation).into())
         .with(number("peak_acceleration_error"), |row| row.error().map(|error| error.peak_acceleration).into())
         .with(number("first_impact_time_error_s"), |row| row.error().map(|error| error.first_impact_time).into())

@@ -31,7 +31,7 @@ pub fn parts_table<'s>(findings: &'s Findings) -> impl Table + 's {
         .with(number("margin"), |row| row.row.margin.into())
         .with(Column::text("motion").or_nothing(), |row| row.row.motion.as_ref().into())
         .with(number("time_s"), |row| row.row.time_s.into())
-        .with(Column::text("chosen_clutches"), |row| if row.row.chosen_clutches { "true" } else { "false" }.into());
+        .with(Column::text("chosen_clutches"), |row| row.row.chosen_clutches.into());
     FieldTable { fields, rows: findings.lists.iter().flat_map(of_list).collect() }
 }
 
@@ -48,7 +48,7 @@ pub fn delay_table<'s>(findings: &'s Findings) -> impl Table + 's {
         .with(Column::count("newly_overturned"), |row| row.row.newly_overturned.into())
         .with(Column::count("failed"), |row| row.row.failed.into())
         .with(Column::number("largest_rotation").or_nothing(), |row| row.row.largest_rotation.into())
-        .with(Column::text("allowed"), |row| if row.row.allowed { "true" } else { "false" }.into());
+        .with(Column::text("allowed"), |row| row.row.allowed.into());
     FieldTable { fields, rows: findings.lists.iter().flat_map(of_list).collect() }
 }
 

@@ -9,10 +9,6 @@ use super::motion::Motion;
 use super::problem::{Problem, Solution};
 use super::response::Response;
 
-fn yes_or_no(yes: bool) -> &'static str {
-    if yes { "true" } else { "false" }
-}
-
 /// A design, and what it is among those of its table.
 struct NamedRow<'s> {
     name: &'s str,
@@ -54,9 +50,9 @@ fn design_fields<'s>(first: Fields<NamedRow<'s>>, rows: &[NamedRow<'s>]) -> Fiel
         .with(number("peak_force_ratio").shown("F/(mg)", digits(4)), |row| row.design.peak_force_ratio.into())
         .with(number("stroke_m").shown("stroke (m)", digits(4)), |row| row.design.stroke_m.into())
         .with(number("median_peak_rotation").shown("median θ/α", digits(3)), |row| row.design.median_peak_rotation.into())
-        .with(Column::text("feasible"), |row| yes_or_no(row.design.feasible).into())
-        .with(Column::text("on_force_front"), |row| yes_or_no(row.design.on_force_front).into())
-        .with(Column::text("on_stroke_front"), |row| yes_or_no(row.design.on_stroke_front).into());
+        .with(Column::text("feasible"), |row| row.design.feasible.into())
+        .with(Column::text("on_force_front"), |row| row.design.on_force_front.into())
+        .with(Column::text("on_stroke_front"), |row| row.design.on_stroke_front.into());
     if rows.iter().any(|row| row.design.tooth_stress_mpa.is_some()) {
         fields =
             fields.with(number("tooth_stress_mpa").shown("teeth (MPa)", digits(1)), |row| row.design.tooth_stress_mpa.into());
