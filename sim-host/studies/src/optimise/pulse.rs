@@ -86,8 +86,8 @@ impl PulseTable {
 
     /// Its pulses, each with its name.
     fn tables(&self) -> Vec<(String, GroundTable)> {
-        let word = serde_json::to_value(self.motion).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default();
-        let mut all = vec![(word, GroundTable::of(self.motion))];
+        let table = GroundTable::of(self.motion);
+        let mut all = vec![(table.kind(), table)];
         for (key, values, place) in self.keys() {
             let Some(values) = values else { continue };
             let with = |(name, table): &(String, GroundTable), value: f64| {
