@@ -8,8 +8,10 @@ use sprag_sim::clairvoyant::Grid;
 
 use super::bench::{Conditions, StudyError, with_loop};
 use super::law_settings::{SLENDERNESS_DEG, Setting};
-use super::laws::{AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families, maps_of_pulses};
-use super::motion::{Family, Motion, Records, and_records};
+use super::laws::{
+    AMPLITUDES, Bench, FREQUENCIES, Kind, LAWS, PLAIN, Run, THRESHOLDS, families, maps_of_pulses, motions_in_words,
+};
+use super::motion::{Family, Motion, Records};
 use super::report::Report;
 use crate::statistics::quantile;
 
@@ -156,18 +158,9 @@ pub fn bound(records: &[Motion], progress: &Progress, conditions: &Conditions<'_
     let recorded = Records::new(records)?;
     let base = Setting::base();
     let alpha = base.slenderness_deg.to_radians();
-    let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
     let mut report = Report::new("bound", "What a clutch law can do at best");
-    report.paragraph(&format!(
-        "Motions: pulses of {} families with ω/p {} to {} and peaks of {} to {} uplift thresholds g tan α{}. R = 2 m, α = \
-         {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85.",
-        Family::ALL.len(),
-        FREQUENCIES.0,
-        FREQUENCIES.1,
-        AMPLITUDES.0,
-        AMPLITUDES.1,
-        and_records(records.len(), &format!(" scaled to peaks of {thresholds} thresholds")),
-    ));
+    let motions = motions_in_words("families", records);
+    report.paragraph(&format!("{motions} R = 2 m, α = {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85."));
     report.paragraph(
         "Overturned blocks. The bound is a law that knew the whole motion: the best of all schedules of the clutches, found by forward dynamic \
          programming. In brackets the share of the gap between the best of bare block, inerter and Eq. 10 (the first three rows) and \

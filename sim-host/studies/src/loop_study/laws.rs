@@ -167,23 +167,25 @@ fn best(tallies: &[Tally]) -> String {
     fewest(tallies).into_iter().map(|index| LAWS[index].name()).collect::<Vec<_>>().join(", ")
 }
 
+/// The pulses, of so many `families`, and `records` that laws are compared under.
+pub(super) fn motions_in_words(families: &str, records: &[Motion]) -> String {
+    let (number, records) = (Family::ALL.len(), records.len());
+    let ((slowest, fastest), (least, most)) = (FREQUENCIES, AMPLITUDES);
+    let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
+    let records = and_records(records, &format!(" scaled to peaks of {thresholds} thresholds"));
+    format!(
+        "Motions: pulses of {number} {families} with ω/p {slowest} to {fastest} and peaks of {least} to {most} uplift thresholds g tan α{records}."
+    )
+}
+
 /// Runs the study over pulses and `records`.
 pub fn laws(records: &[Motion], progress: &Progress, conditions: &Conditions<'_>) -> Result<Report, StudyError> {
     let recorded = Records::new(records)?;
     let base = Setting::base();
     let alpha = |setting: &Setting| setting.slenderness_deg.to_radians();
-    let thresholds = THRESHOLDS.map(|threshold| threshold.to_string()).join(", ");
     let mut report = Report::new("laws", "Beyond Eq. 10: clutch laws");
-    report.paragraph(&format!(
-        "Motions: pulses of {} families (M-P: Mavroeidis-Papageorgiou) with ω/p {} to {} and peaks of {} to {} uplift thresholds \
-         g tan α{}. A heading has the number of runs in brackets.",
-        Family::ALL.len(),
-        FREQUENCIES.0,
-        FREQUENCIES.1,
-        AMPLITUDES.0,
-        AMPLITUDES.1,
-        and_records(records.len(), &format!(" scaled to peaks of {thresholds} thresholds")),
-    ));
+    let motions = motions_in_words("families (M-P: Mavroeidis-Papageorgiou)", records);
+    report.paragraph(&format!("{motions} A heading has the number of runs in brackets."));
     report.paragraph(&format!(
         "R = 2 m, α = {SLENDERNESS_DEG}°, σ = 0.5, η = 0.85 but where a table says otherwise. Counted are overturned blocks: {} is the \
          bare block, {} one inerter, {} Eq. 10.",
