@@ -7,6 +7,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
+use sprag_cli::board::driver::same;
 use sprag_shared::control::controller::{Circumstances, Decision};
 use sprag_shared::control::law::Wish;
 use sprag_shared::control::sensing::sample::Sample;
@@ -162,13 +163,6 @@ impl BoardDriver {
         self.differing += u32::from(!same(&expected.decision, &report.decision));
         assert_eq!(report.lateness, 0, "tick {}", report.tick);
     }
-}
-
-/// Whether two decisions are the same to the last bit, as they are sent.
-fn same(one: &Decision, other: &Decision) -> bool {
-    let (mut one_frame, mut other_frame) = ([0; MAX_FRAME], [0; MAX_FRAME]);
-    let lengths = (encode(0, one, &mut one_frame).unwrap(), encode(0, other, &mut other_frame).unwrap());
-    lengths.0 == lengths.1 && one_frame == other_frame
 }
 
 /// What a tick read, as the bench says it.

@@ -275,7 +275,7 @@ impl<L: Line> Drop for DeviceDriver<L> {
 }
 
 /// Whether two decisions are the same to the last bit, as they are sent.
-fn same(one: &Decision, other: &Decision) -> bool {
+pub fn same(one: &Decision, other: &Decision) -> bool {
     let (mut one_frame, mut other_frame) = ([0; MAX_FRAME], [0; MAX_FRAME]);
     let lengths = (encode(0, one, &mut one_frame), encode(0, other, &mut other_frame));
     lengths.0.is_ok() && lengths.0 == lengths.1 && one_frame == other_frame
