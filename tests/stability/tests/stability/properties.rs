@@ -8,7 +8,7 @@ use sprag_shared::math::pow;
 use sprag_shared::motion::observer::Event;
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::{Block, Geometry, RECTANGLE_INERTIA_RATIO};
-use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
+use sprag_shared::structure::device::{Device, DeviceKind, KinematicsKind};
 use sprag_shared::structure::mount::Mount;
 use sprag_stability::{Energy, GEOMETRIES, Log, Precision, Segment, Start, Stepping, Tally, unit_block};
 
@@ -88,6 +88,7 @@ fn same<S: Precision>(first: &Log<S, true>, second: &Log<S, true>, rotation: S, 
         prop_assert_eq!(bits(a.state.rotation * rotation), bits(b.state.rotation));
         prop_assert_eq!(bits(a.state.velocity * velocity), bits(b.state.velocity));
         prop_assert_eq!(a.state.impacts, b.state.impacts);
+        prop_assert_eq!(a.state.side, if rotation < S::ZERO { b.state.side.opposite() } else { b.state.side });
     }
     prop_assert_eq!(first.stretches.len(), second.stretches.len());
     for (a, b) in first.stretches.iter().zip(&second.stretches) {
@@ -101,12 +102,18 @@ fn same<S: Precision>(first: &Log<S, true>, second: &Log<S, true>, rotation: S, 
     Ok(())
 }
 
+/// With the device at its own mount, and tied to another point.
 fn mirrored<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), TestCaseError> {
     let segments = segments::<S>(structure, motion, 1.0);
     let other: Vec<_> = segments.iter().map(|segment| segment.mirrored()).collect();
-    for stepping in steppings(structure, 1.0) {
-        let (here, there) = (recorded(structure, stepping, &segments), recorded(structure, stepping, &other));
-        same(&here, &there, -S::ONE, S::ONE)?;
+    for mount in [structure.device.mount, Mount::TyingPoint { height: 1.3 * structure.block.size(), pulley_ratio: 0.7 }] {
+        let structure = Structure { device: Device { mount, ..structure.device }, ..*structure };
+        for stepping in steppings(&structure, 1.0) {
+            let (here, there) = (recorded(&structure, stepping, &segments), recorded(&structure, stepping, &other));
+            same(&here, &there, -S::ONE, S::ONE)?;
+            prop_assert_eq!(here.peaks.rotation.bits(), there.peaks.rotation.bits());
+            prop_assert_eq!(here.peaks.acceleration.bits(), there.peaks.acceleration.bits());
+        }
     }
     Ok(())
 }
@@ -127,7 +134,7 @@ fn slower<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), Te
 fn wider<S: Precision>(structure: &Structure, motion: &Motion) -> Result<(), TestCaseError> {
     let slender = Structure {
         geometry: Geometry::Slender,
-        device: sprag_shared::structure::device::Device { mount: Mount::CentreOfMass, ..structure.device },
+        device: Device { mount: Mount::CentreOfMass, ..structure.device },
         ..*structure
     };
     let block = Block::new(slender.block.size(), 0.5 * slender.block.slenderness(), RECTANGLE_INERTIA_RATIO);
