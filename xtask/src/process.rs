@@ -48,7 +48,7 @@ pub fn host(root: &Path) -> Result<String, Stop> {
 /// If it cannot be started or does not end well.
 pub fn run(command: &mut Command) -> Result<(), Stop> {
     let shown = shown(command);
-    let status = command.stdin(Stdio::null()).status().map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    let status = command.stdin(Stdio::null()).status().map_err(cannot(&shown))?;
     ended(&shown, status)
 }
 
@@ -67,10 +67,9 @@ impl Beside {
     /// If it cannot be started.
     pub fn start(command: &mut Command) -> Result<Self, Stop> {
         let shown = shown(command);
-        let cannot = |error| Stop::usage(format!("{shown}: {error}"));
-        let (mut reader, writer) = io::pipe().map_err(cannot)?;
-        command.stdin(Stdio::null()).stdout(writer.try_clone().map_err(cannot)?).stderr(writer);
-        let child = command.spawn().map_err(cannot)?;
+        let (mut reader, writer) = io::pipe().map_err(cannot(&shown))?;
+        command.stdin(Stdio::null()).stdout(writer.try_clone().map_err(cannot(&shown))?).stderr(writer);
+        let child = command.spawn().map_err(cannot(&shown))?;
         // The pipe ends only when nobody holds its other end.
         command.stdout(Stdio::null()).stderr(Stdio::null());
         let written = thread::spawn(move || {
@@ -85,10 +84,10 @@ impl Beside {
     /// # Errors
     /// If it does not end well.
     pub fn wait(mut self) -> Result<(), Stop> {
-        let cannot = |error| Stop::usage(format!("{}: {error}", self.shown));
+        let cannot = cannot(&self.shown);
         let written = self.written.take().and_then(|thread| thread.join().ok()).unwrap_or_else(|| Ok(Vec::new()));
-        written.and_then(|bytes| io::stderr().write_all(&bytes)).map_err(cannot)?;
-        ended(&self.shown, self.child.wait().map_err(cannot)?)
+        written.and_then(|bytes| io::stderr().write_all(&bytes)).map_err(&cannot)?;
+        ended(&self.shown, self.child.wait().map_err(&cannot)?)
     }
 }
 
@@ -98,6 +97,11 @@ impl Drop for Beside {
         _ = self.child.kill();
         _ = self.child.wait();
     }
+}
+
+/// Of a command that the system does not run.
+fn cannot(shown: &str) -> impl Fn(io::Error) -> Stop {
+    move |error| Stop::usage(format!("{shown}: {error}"))
 }
 
 /// Whether a command ended well.
@@ -111,8 +115,8 @@ fn ended(shown: &str, status: ExitStatus) -> Result<(), Stop> {
 /// If it cannot be started or does not end well.
 pub fn filtered(command: &mut Command, wanted: impl Fn(&str) -> bool) -> Result<(), Stop> {
     let shown = shown(command);
-    let cannot = |error| Stop::usage(format!("{shown}: {error}"));
-    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(cannot)?;
+    let cannot = cannot(&shown);
+    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(&cannot)?;
     if let Some(stderr) = child.stderr.take() {
         // Not `lines`: a program under test may write bytes that are no text.
         for line in BufReader::new(stderr).split(b'\n').map_while(Result::ok) {
@@ -131,14 +135,8 @@ pub fn filtered(command: &mut Command, wanted: impl Fn(&str) -> bool) -> Result<
 /// If it cannot be started or does not end well.
 pub fn output(command: &mut Command) -> Result<String, Stop> {
     let shown = shown(command);
-    let output = command
-        .stdin(Stdio::null())
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
-    if !output.status.success() {
-        return Err(Stop::failed(format!("`{shown}` failed ({})", output.status)));
-    }
+    let output = command.stdin(Stdio::null()).stderr(Stdio::inherit()).output().map_err(cannot(&shown))?;
+    ended(&shown, output.status)?;
     String::from_utf8(output.stdout).map_err(|_| Stop::failed(format!("`{shown}` wrote something that is no text")))
 }
 
@@ -148,8 +146,7 @@ pub fn output(command: &mut Command) -> Result<String, Stop> {
 /// If it cannot be started.
 pub fn captured(command: &mut Command) -> Result<String, Stop> {
     let shown = shown(command);
-    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output();
-    let output = output.map_err(|error| Stop::usage(format!("{shown}: {error}")))?;
+    let output = command.stdin(Stdio::null()).stderr(Stdio::null()).output().map_err(cannot(&shown))?;
     Ok(String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
