@@ -275,6 +275,6 @@ mod tests {
         let specimen = |changes: &[f64], overturned| Comparison { changes: changes.to_vec(), overturned, saved: 0, motions: 3 };
         let cells = pooled(&[specimen(&[0.01, -0.01], 1), specimen(&[0.03, 0.03], 0)]);
         assert_eq!([&cells[2], &cells[3], &cells[4]], ["1.00 to 3.00", "1", "6"]);
-        assert_eq!(pooled(&[Comparison::default()])[1..3], ["-", "- to -"]);
+        assert_eq!(pooled(&[Comparison::default()])[1..3], ["-", "-"]);
     }
 }
