@@ -228,8 +228,9 @@ impl<S: Real> HybridSystem<S> {
                     self.carry_out(state, index, time, observer);
                     if state.motion.phase == Phase::Rest {
                         state.motion.velocity = S::ZERO;
-                    } else if is_due(&state.device.wheels[index]) {
-                        // An infinite brake has the flywheel before it is engaged again.
+                    }
+                    if is_due(&state.device.wheels[index]) {
+                        // An infinite brake has the flywheel before it is engaged again, and an ideal clutch has created its energy before it opens.
                         self.show_instant(state, time, observer);
                     }
                 }

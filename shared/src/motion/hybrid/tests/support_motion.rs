@@ -14,9 +14,9 @@ use crate::observers::checks::Checks;
 use crate::observers::ledger::{Account, Clutching, Ledger};
 use crate::observers::peaks::Peaks;
 use crate::structure::Structure;
-use crate::structure::block::Geometry;
+use crate::structure::block::{GRAVITY, Geometry};
 use crate::structure::device::{DeviceKind, KinematicsKind};
-use crate::structure::drivetrain::{Drivetrain, Engagement, FlywheelLosses, Rack, Support};
+use crate::structure::drivetrain::{Actuation, Delay, Drivetrain, Engagement, FlywheelLosses, Rack, Support};
 use crate::structure::mount::Mount;
 
 const SIGMA: f64 = 0.5;
@@ -305,6 +305,24 @@ fn it_lifts_a_block_by_its_inerter_alone() {
         machine.advance(&tight(), &mut state, shaking, until, &LIMITS, &mut ()).unwrap();
         assert_eq!(state.motion.phase, phase);
     }
+}
+
+/// A support that gains speed for less than the transport delay of an engagement: the command to open catches up with the one to engage, and both are
+/// due at once. The flywheel of the standing block takes up the speed that the support has then, ½ σ v²/(λR²), and the brake has it.
+#[test]
+fn an_engagement_of_no_length_creates_what_the_brake_takes() {
+    let structure = of(Geometry::Slender, DeviceKind::ClutchedPair, Mount::CentreOfMass);
+    let actuation = Actuation { engagement_delay: 0.05, delay: Delay::Transport, ..Actuation::default() };
+    let machine: HybridSystem<f64> = Drivetrain { actuation, ..moving() }.resolve(&structure, false).unwrap();
+    let pieces = [(AnySegment::Quiet, constant(0.04), 0.02), (AnySegment::Quiet, constant(-0.01), 0.04)];
+    let mut ledger = Ledger::new(&structure.block, Geometry::Slender, &account(DeviceKind::ClutchedPair));
+    let state = follow(&machine, &tight(), &pieces, &mut ledger);
+    assert_eq!(state.motion.phase, Phase::Rest);
+    let speed = GRAVITY * (0.04 * 0.02 - 0.01 * 0.03) / structure.block.size();
+    let created = 0.5 * SIGMA / structure.block.inertia_ratio() * speed * speed;
+    let entries = ledger.entries;
+    assert!((entries.created / created - 1.0).abs() < 1e-12, "{entries:?} and {created}");
+    assert!((entries.brake / created - 1.0).abs() < 1e-12 && entries.clutch == 0.0, "{entries:?}");
 }
 
 /// As the factor, by name and reason.
