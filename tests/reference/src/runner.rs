@@ -270,6 +270,9 @@ impl<'a> Runner<'a> {
                     model.look_at_terminals(&mut self.state, after);
                 }
                 model.settle(&mut self.state, after);
+            } else if model.follows_terminals() && after.support == 0.0 && self.shaking(self.within).support == 0.0 {
+                // Where the support accelerates no more, a block that stands wants no clutch, however gently that came.
+                model.settle(&mut self.state, after);
             }
         }
         if stop >= clock {
