@@ -171,6 +171,12 @@ impl<'a> Runner<'a> {
             let next = self.ahead(goal);
             if goal > time && self.fired(&next).is_some() {
                 let (guard, at) = self.locate(goal);
+                let slow = |state: &State| state.velocity().abs() < 1e-6 * counted;
+                if guard == Guard::Impact && self.state.rotation() == 0.0 && self.state.velocity() == 0.0 && slow(&at) {
+                    // It has set out on the verge, and rounding has thrown it back: it has not moved, and its clutches keep their commands.
+                    self.pause();
+                    continue;
+                }
                 if let (Guard::Impact, true) = (guard, at.velocity().abs() >= counted) {
                     impacts += 1;
                 }
@@ -187,7 +193,7 @@ impl<'a> Runner<'a> {
                 }
                 let shaking = self.shaking(self.state.time);
                 model.answer(&mut self.state, guard, shaking);
-                if at_once > GRAZE && self.state.velocity().abs() < 1e-6 * counted {
+                if at_once > GRAZE && slow(&self.state) {
                     self.pause();
                 } else if at_once > GRAZE && guard == Guard::Command {
                     self.chatter(stop);
