@@ -11,7 +11,7 @@ use sprag_sim::scene::drivetrain::EngagementName;
 use super::choice_page::not_looked_at;
 use super::design::{Candidate, Score};
 use super::findings::{Findings, Fronts, Row};
-use super::problem::{Choices, Problem};
+use super::problem::{Choices, Problem, Solution};
 use super::typed_tables::design_table;
 use crate::cloud::study::{Study, StudyError};
 use crate::statistics::Level;
@@ -22,6 +22,14 @@ fn parsed(text: &str) -> Result<Study, StudyError> {
 
 fn study(text: &str) -> Study {
     parsed(text).unwrap()
+}
+
+/// What `look` finds in the study `text` of pulses alone, once it is solved.
+fn solved<R>(text: &str, look: impl FnOnce(&Problem<'_>, &Solution) -> R) -> R {
+    let study = Study::parse(text, "study.toml", Path::new(""), &[], &[]).unwrap();
+    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
+    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
+    look(&problem, &solution)
 }
 
 fn refusal(text: &str) -> String {
@@ -199,36 +207,34 @@ const WORST: &str = "[optimise]\nlaws = ['inerter', 'clutched-pair']\nmass_ratio
 /// A quantile over the specimens stands beside no mean over them.
 #[test]
 fn means_are_shown_beside_means() {
-    let study = Study::parse(WORST, "study.toml", Path::new(""), &[], &[]).unwrap();
-    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
-    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-    let found = Findings::of(&problem, &solution);
-    let best = found.best.as_ref().unwrap();
-    let mean = best.overturned as f64 / best.motions as f64;
-    assert_eq!(best.motions, 4 * 8);
-    assert!(best.probability > mean, "the worst of specimens that differ: {} and {mean}", best.probability);
-    // The band is of the share itself.
-    assert!(
-        found.rows.iter().all(|row| row.probability_band.low <= row.probability && row.probability <= row.probability_band.high)
-    );
-    assert_eq!(found.delay_budget.as_ref().unwrap().late[0].probability, mean);
-    let page = super::choice_page::choice_page(&problem, &found).unwrap();
-    let beside = format!("of the cases, beside {:.1} % above.", 100.0 * mean);
-    assert!(page.contains(&beside), "{beside}\n{page}");
-    let page = super::page::page(&problem, &found).unwrap();
-    assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
+    solved(WORST, |problem, solution| {
+        let found = Findings::of(problem, solution);
+        let best = found.best.as_ref().unwrap();
+        let mean = best.overturned as f64 / best.motions as f64;
+        assert_eq!(best.motions, 4 * 8);
+        assert!(best.probability > mean, "the worst of specimens that differ: {} and {mean}", best.probability);
+        // The band is of the share itself.
+        assert!(
+            found
+                .rows
+                .iter()
+                .all(|row| row.probability_band.low <= row.probability && row.probability <= row.probability_band.high)
+        );
+        assert_eq!(found.delay_budget.as_ref().unwrap().late[0].probability, mean);
+        let page = super::choice_page::choice_page(problem, &found).unwrap();
+        let beside = format!("of the cases, beside {:.1} % above.", 100.0 * mean);
+        assert!(page.contains(&beside), "{beside}\n{page}");
+        let page = super::page::page(problem, &found).unwrap();
+        assert!(page.contains("Share, from, to: the 100 % quantile over the specimens."), "{page}");
+    });
 }
 
 /// What a page shows as a quantile of the motions is not their largest.
 #[test]
 fn the_page_says_of_which_quantile_its_forces_are() {
     let legend = |quantile: &str| {
-        let study =
-            Study::parse(&WORST.replace("[optimise]", &format!("[optimise]\n{quantile}")), "study.toml", Path::new(""), &[], &[]);
-        let study = study.unwrap();
-        let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
-        let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-        let page = super::page::page(&problem, &Findings::of(&problem, &solution)).unwrap();
+        let text = WORST.replace("[optimise]", &format!("[optimise]\n{quantile}"));
+        let page = solved(&text, |problem, solution| super::page::page(problem, &Findings::of(problem, solution)).unwrap());
         page.lines().skip_while(|line| !line.starts_with("F/(mg): ")).take(2).collect::<Vec<_>>().join(" ")
     };
     assert!(legend("").starts_with("F/(mg): over all motions, until"), "{}", legend(""));
@@ -240,23 +246,23 @@ fn the_page_says_of_which_quantile_its_forces_are() {
 /// A motion counts once for each specimen that it shakes, in rotations as in overturning.
 #[test]
 fn rotations_are_compared_over_all_specimens() {
-    let study = Study::parse(WORST, "study.toml", Path::new(""), &[], &[]).unwrap();
-    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
-    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-    let found = Findings::of(&problem, &solution);
-    let design = |row: &Row| {
-        let all = || std::iter::once(&solution.bare).chain(&solution.designs);
-        all().find(|design| design.candidate == row.candidate).unwrap()
-    };
-    let best = design(found.best.as_ref().unwrap());
-    for rival in &found.ranking.as_ref().unwrap().rivals {
-        let pairs = best.responses.iter().zip(&design(&rival.row).responses);
-        let peaks =
-            pairs.filter_map(|(best, other)| Some((best.as_ref().ok()?.peak_rotation?, other.as_ref().ok()?.peak_rotation?)));
-        let logs: Vec<f64> = peaks.filter(|(best, other)| best.min(*other) > 0.0).map(|(best, other)| ln(other / best)).collect();
-        let [mean, difference] = [logs.iter().sum::<f64>() / logs.len() as f64, rival.log_rotation.unwrap().difference];
-        assert!((difference - mean).abs() < 1e-12, "{}: {difference} {mean}", rival.row.law);
-    }
+    solved(WORST, |problem, solution| {
+        let found = Findings::of(problem, solution);
+        let design = |row: &Row| {
+            let all = || std::iter::once(&solution.bare).chain(&solution.designs);
+            all().find(|design| design.candidate == row.candidate).unwrap()
+        };
+        let best = design(found.best.as_ref().unwrap());
+        for rival in &found.ranking.as_ref().unwrap().rivals {
+            let pairs = best.responses.iter().zip(&design(&rival.row).responses);
+            let peaks =
+                pairs.filter_map(|(best, other)| Some((best.as_ref().ok()?.peak_rotation?, other.as_ref().ok()?.peak_rotation?)));
+            let logs: Vec<f64> =
+                peaks.filter(|(best, other)| best.min(*other) > 0.0).map(|(best, other)| ln(other / best)).collect();
+            let [mean, difference] = [logs.iter().sum::<f64>() / logs.len() as f64, rival.log_rotation.unwrap().difference];
+            assert!((difference - mean).abs() < 1e-12, "{}: {difference} {mean}", rival.row.law);
+        }
+    });
 }
 
 /// At the base corners no clutch can be late: nothing is run for it, and one note says so.
@@ -264,17 +270,16 @@ fn rotations_are_compared_over_all_specimens() {
 fn a_device_that_cannot_be_late_has_no_delay_budget() {
     let at_the_corners =
         WORST.replace("laws = ['inerter', 'clutched-pair']", "laws = ['clutched-pair']\nmounts = ['base-corners']");
-    let study = Study::parse(&at_the_corners, "study.toml", Path::new(""), &[], &[]).unwrap();
-    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
-    let solution = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-    let found = Findings::of(&problem, &solution);
-    assert!(found.best.is_some() && found.delay_budget.is_none() && solution.failures.is_empty(), "{:?}", solution.failures);
-    assert_eq!(found.runs, (1 + found.designs) * problem.trials());
-    let notes: Vec<&String> = found.notes.iter().filter(|note| note.contains("delay budget")).collect();
-    assert!(
-        notes.len() == 1 && notes[0].contains("cannot be late: actuation: ") && notes[0].contains("base corners"),
-        "{notes:?}"
-    );
+    solved(&at_the_corners, |problem, solution| {
+        let found = Findings::of(problem, solution);
+        assert!(found.best.is_some() && found.delay_budget.is_none() && solution.failures.is_empty(), "{:?}", solution.failures);
+        assert_eq!(found.runs, (1 + found.designs) * problem.trials());
+        let notes: Vec<&String> = found.notes.iter().filter(|note| note.contains("delay budget")).collect();
+        assert!(
+            notes.len() == 1 && notes[0].contains("cannot be late: actuation: ") && notes[0].contains("base corners"),
+            "{notes:?}"
+        );
+    });
 }
 
 /// Nobody knows what a run that failed would say, be it one of many or all of a delay.
@@ -282,24 +287,25 @@ fn a_device_that_cannot_be_late_has_no_delay_budget() {
 fn a_delay_budget_ends_where_a_run_fails() {
     let text = "[optimise]\nlaws = ['clutched-pair']\nmass_ratio = { from = 0.5, to = 1.0, cells = 2 }\ndelays_s = [0.001, 0.002]\n\
                 [[optimise.pulse]]\nmotion = 'sine'\nfrequency_ratio = [1.5, 2.0, 2.5, 3.0, 3.5, 4.0]\namplitude_ratio = [1.5, 2.0, 3.0, 4.0]";
-    let study = Study::parse(text, "study.toml", Path::new(""), &[], &[]).unwrap();
-    let problem = Problem::new(Choices::of(&study).unwrap(), &[]);
-    let solved = problem.solve(&mut (), &Interrupt::default(), &|_| (), &|_| ()).unwrap();
-    let budget = Findings::of(&problem, &solved).delay_budget.unwrap();
-    assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(0.002), None, 3));
-    for (from, kept, lost) in [(0, 0.0, 0.001), (1, 0.001, 0.002)] {
-        for failed in [1, problem.trials()] {
-            let mut solution = solved.clone();
-            for design in &mut solution.late[from..] {
-                design.responses[..failed].fill(Err("stopped".to_owned()));
-                design.score = Score::of(&design.responses, &solved.bare.responses, &problem.choices.limits, problem.objective());
+    solved(text, |problem, done| {
+        let budget = Findings::of(problem, done).delay_budget.unwrap();
+        assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(0.002), None, 3));
+        for (from, kept, lost) in [(0, 0.0, 0.001), (1, 0.001, 0.002)] {
+            for failed in [1, problem.trials()] {
+                let mut solution = done.clone();
+                for design in &mut solution.late[from..] {
+                    design.responses[..failed].fill(Err("stopped".to_owned()));
+                    design.score =
+                        Score::of(&design.responses, &done.bare.responses, &problem.choices.limits, problem.objective());
+                }
+                let budget = Findings::of(problem, &solution).delay_budget.unwrap();
+                assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(kept), Some(lost), 1 + from));
+                let words =
+                    format!("delay budget: better than no device for sure up to {kept:.4} s later, runs fail at {lost:.4} s");
+                assert_eq!(budget.words(), words);
             }
-            let budget = Findings::of(&problem, &solution).delay_budget.unwrap();
-            assert_eq!((budget.largest_delay_s, budget.lost_at_s, budget.late.len()), (Some(kept), Some(lost), 1 + from));
-            let words = format!("delay budget: better than no device for sure up to {kept:.4} s later, runs fail at {lost:.4} s");
-            assert_eq!(budget.words(), words);
         }
-    }
+    });
 }
 
 /// What the scene of a study has was looked at.
