@@ -1,7 +1,7 @@
 //! Tables for people: aligned columns for a terminal, or Markdown that is aligned as well.
 
 use console::measure_text_width;
-use sprag_sim::effect::number::true_minus;
+use sprag_sim::effect::number::{scientific, true_minus};
 
 use crate::columns::{Column, Kind, RowWriter, Shown, Table, TableError, Value};
 use crate::terminal::{in_lines_of, room};
@@ -215,10 +215,12 @@ fn in_figures(value: f64, figures: usize) -> String {
     if !value.is_finite() || value == 0.0 || (0.1..1e7).contains(&size) {
         return number(value, figures);
     }
-    let exponential = format!("{value:.*e}", figures.saturating_sub(1));
-    let exponent = exponential.rsplit('e').next().and_then(|exponent| exponent.parse::<i32>().ok()).unwrap_or(0);
+    let (mantissa, exponent) = scientific(value, figures);
+    if !(1e-4..1e7).contains(&size) {
+        return format!("{mantissa}e{exponent}");
+    }
     let decimals = usize::try_from(figures as i32 - 1 - exponent).unwrap_or(0);
-    if (1e-4..1e7).contains(&size) { format!("{value:.decimals$}") } else { exponential }
+    format!("{value:.decimals$}")
 }
 
 /// A relative change in percent with a sign and no decimals; a dash for none.

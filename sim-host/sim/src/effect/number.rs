@@ -8,14 +8,19 @@ pub fn number(value: f64) -> String {
     if !value.is_finite() {
         return if value > 0.0 { "∞".to_owned() } else { format!("{value}") };
     }
-    let scientific = format!("{value:.4e}");
-    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let (mantissa, exponent) = scientific(value, 5);
     if !(-4..6).contains(&exponent) {
-        return format!("{}e{exponent}", trimmed(mantissa));
+        return format!("{}e{exponent}", trimmed(&mantissa));
     }
     let decimals = usize::try_from(4 - exponent).unwrap_or(0);
     trimmed(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// A finite `value`, rounded to so many significant `digits`, as a number of one digit before the point and the power of ten that it is of.
+pub fn scientific(value: f64, digits: usize) -> (String, i32) {
+    let text = format!("{value:.*e}", digits.saturating_sub(1));
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    (mantissa.to_owned(), exponent.parse().unwrap_or(0))
 }
 
 /// The number with a true minus sign, as tables and pages have it; a dash stays one.
