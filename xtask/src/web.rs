@@ -7,7 +7,7 @@ use crate::{
     stop::Stop,
     tools,
 };
-use std::{fs, path::Path, process::Command};
+use std::{ffi::OsStr, fs, path::Path, process::Command};
 
 /// Folder of the page.
 const FOLDER: &str = "web";
@@ -26,6 +26,9 @@ const SIMD: &str = "target.wasm32-unknown-unknown.rustflags=[\"-Ctarget-feature=
 
 /// Packages of the modules.
 const PACKAGES: [&str; 4] = ["--package", "sprag-page", "--package", "sprag-page-lanes"];
+
+/// What npm is told to run the tests by.
+const TESTS: &[&str] = &["test"];
 
 /// A build: words of cargo, and of each module the folder of the page's sources and the file.
 type Build = (&'static [&'static str], &'static [(&'static str, &'static str)]);
@@ -57,14 +60,14 @@ pub fn run(root: &Path, steps: &mut Steps, tested: bool) -> Result<(), Stop> {
         let lints = ["--", "-D", "warnings"];
         done(cargo(root, &["clippy", "--profile", PROFILE, "--target", TARGET]).args(PACKAGES).args(lints))
     })?;
-    let npm = |words: &[&str]| done(Command::new("npm").current_dir(root.join(FOLDER)).env("PATH", &path).args(words));
+    let npm = |words: &[&str]| done(&mut npm(root, &path, words));
     steps.step("page", || {
         npm(&["ci", "--no-audit", "--no-fund"])?;
         npm(&["run", "check"])?;
         npm(&["run", "types"])?;
         npm(&["run", "build"])
     })?;
-    if tested { steps.step("tests, page", || npm(&["test"])) } else { Ok(()) }
+    if tested { steps.step("tests, page", || npm(TESTS)) } else { Ok(()) }
 }
 
 /// Starts the build as a process that runs beside other steps.
@@ -83,7 +86,14 @@ pub fn build_beside(root: &Path) -> Result<Beside, Stop> {
 pub fn tests_beside(root: &Path) -> Result<Beside, Stop> {
     tools::need_browser()?;
     let path = tools::path_with_node(root)?;
-    Beside::start(Command::new("npm").current_dir(root.join(FOLDER)).env("PATH", path).arg("test"))
+    Beside::start(&mut npm(root, &path, TESTS))
+}
+
+/// A command of the page's tools, with the Node of `path`.
+fn npm(root: &Path, path: &OsStr, words: &[&str]) -> Command {
+    let mut command = Command::new("npm");
+    command.current_dir(root.join(FOLDER)).env("PATH", path).args(words);
+    command
 }
 
 /// Prints cells a second of the page's lanes on one core and their ratios to those of a program: with SIMD to the registers that every machine
