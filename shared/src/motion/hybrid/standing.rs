@@ -200,14 +200,14 @@ impl<S: Real> HybridSystem<S> {
     pub(super) fn leave_base(&self, state: &mut HybridState<S>, time: S, observer: &mut dyn Observer<S>) {
         (state.motion.terminal_acceleration_sign, state.jolted, state.fresh[0]) =
             (state.motion.side, false, self.transmission.traits().commanded);
-        if state.device.terminals.is_some() {
+        let follows = state.device.terminals.is_some();
+        if follows || self.breakaway(state, state.motion.side, state.motion.side).is_pushed(state.ground) {
             // What lifts the block is not what it would meet with a flywheel engaged.
             self.look_at_drive(state);
             state.fresh[0] = false;
+        }
+        if follows {
             self.look_at_terminals(state);
-        } else if self.breakaway(state, state.motion.side, state.motion.side).is_pushed(state.ground) {
-            self.look_at_drive(state);
-            state.fresh[0] = false;
         }
         observer.event(Event::Uplift, time, &state.motion);
     }
