@@ -143,13 +143,10 @@ impl<S: Real> Checks<S> {
         [friction, -vertical, weigh(snapshot.device.force[0]), weigh(snapshot.device.force[1]), support]
     }
 
-    /// Whether an interval may hold a new record of a force. It is a step, which follows at most half a swing of a stiff clutch, or a piece of
+    /// Whether an interval with forces may hold a new record of one. It is a step, which follows at most half a swing of a stiff clutch, or a piece of
     /// one ([`DeviceOutput::pieces`]), so that of three looks one shows more than half of what lies between; and where a parabola through them
     /// also meets a fourth, no more lies between than they and its curvature show.
     fn may_press_harder(&self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) -> bool {
-        if !interval.engaged && !self.drags {
-            return false;
-        }
         let forces = |share: S| {
             let snapshot = output.snapshot(interval.from + share * (interval.to - interval.from));
             let [first, second] = snapshot.device.force;
@@ -174,13 +171,16 @@ impl<S: Real> Checks<S> {
     }
 
     fn look(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
-        let pieces = output.pieces();
-        let length = (interval.to - interval.from) / S::count(pieces);
-        let end = |i: u32| if i == pieces { interval.to } else { interval.from + S::count(i) * length };
-        for i in 0..pieces {
-            let piece = MonotoneInterval { from: end(i), to: end(i + 1), ..*interval };
-            if self.first < FORCES || self.may_press_harder(output, &piece) {
-                self.watch(output, &piece);
+        let of_toe = self.first < FORCES;
+        if of_toe || interval.engaged || self.drags {
+            let pieces = output.pieces();
+            let length = (interval.to - interval.from) / S::count(pieces);
+            let end = |i: u32| if i == pieces { interval.to } else { interval.from + S::count(i) * length };
+            for i in 0..pieces {
+                let piece = MonotoneInterval { from: end(i), to: end(i + 1), ..*interval };
+                if of_toe || self.may_press_harder(output, &piece) {
+                    self.watch(output, &piece);
+                }
             }
         }
         if self.travels {

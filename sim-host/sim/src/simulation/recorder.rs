@@ -172,6 +172,8 @@ impl<'a> Recorder<'a> {
 }
 
 impl<S: Real> Observer<S> for Recorder<'_> {
+    // Out of line, as [`Recorder::sample`] is.
+    #[inline(never)]
     fn device_interval(&mut self, output: &dyn DeviceOutput<S>, interval: &MonotoneInterval<S>) {
         self.swing.reaches(interval.fastest().to_f64());
         let start = self.origin + interval.start.to_f64();
