@@ -87,7 +87,9 @@ impl<'a> Recorder<'a> {
 
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
     pub fn finish(&mut self, end: f64, at_rest: bool) {
-        if at_rest && !self.carried {
+        // A flywheel may spin on under a block at rest.
+        let seen = self.pending.is_some_and(|last| last.time_s >= end);
+        if at_rest && !self.carried && !seen {
             self.stand_to(end);
         } else {
             self.flush();
@@ -305,6 +307,8 @@ mod tests {
         let expected = math::exp(-TAU * 4.0 * (second.0 - first.0));
         assert!((second.1 / first.1 - expected).abs() < 1e-9, "{first:?} {second:?} {expected}");
         assert!(run.history.samples.iter().all(|sample| sample.engaged == 1));
+        let [.., before, last] = &force[..] else { panic!("{force:?}") };
+        assert!(last.0 > before.0 && last.1 != 0.0, "{before:?} {last:?}");
     }
 
     /// Releases that come late, so that the next flywheel is engaged before the last one is let go.
