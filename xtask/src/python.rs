@@ -103,7 +103,7 @@ fn check(root: &Path, steps: &mut Steps, wheel: &Path, built: Option<&Built>) ->
         done(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&place))?;
         let python = place.join("bin/python");
         let wanted = format!("{}[test]", wheel.display());
-        done(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", &wanted]))?;
+        done(tools::pip_install(&python).arg(wanted))?;
         Ok(python)
     })?;
     // From the root, where Python finds the package that is installed and not the folder's, which lacks its native module.

@@ -43,7 +43,7 @@ pub fn run(root: &Path, steps: &mut Steps) -> Result<(), Stop> {
     let python = steps.step("environment, site", || {
         let python = tools::python_of(root, "target/site-python", "docs/requirements.txt", &[])?;
         let wheel = python::last_wheel(root)?;
-        done(Command::new(&python).args(["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps"]).arg(wheel))?;
+        done(tools::pip_install(&python).args(["--force-reinstall", "--no-deps"]).arg(wheel))?;
         Ok(python)
     })?;
     steps.step("pictures", || {

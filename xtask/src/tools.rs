@@ -125,10 +125,15 @@ pub fn python_of(root: &Path, place: &str, requirements: &str, options: &[&str])
     let python = folder.join("bin/python");
     // Again over one that is there: a few seconds, and one that was left half made is whole.
     run(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
-    let mut install = Command::new(&python);
-    install.args(["-m", "pip", "install", "--quiet"]).args(options).arg("--requirement").arg(root.join(requirements));
-    run(&mut install)?;
+    run(pip_install(&python).args(options).arg("--requirement").arg(root.join(requirements)))?;
     Ok(python)
+}
+
+/// The command that installs packages into the environment of `python`. Of their modules few are imported, and those compiled then.
+pub fn pip_install(python: &Path) -> Command {
+    let mut install = Command::new(python);
+    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
+    install
 }
 
 /// Looks for one of the programs, installs the package if none answers, and looks again.
