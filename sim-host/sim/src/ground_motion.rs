@@ -172,6 +172,33 @@ impl GroundMotion {
         }
         if lowest.0.is_finite() { lowest } else { (0.0, 0.0) }
     }
+
+    /// Largest |ü_g/g|/(1 + v̈_g/g), to 1e-9, above a `vertical` motion with the same segments under which the block keeps some weight.
+    pub fn steepest(&self, vertical: Option<&GroundMotion>) -> f64 {
+        let mut steepest = 0.0_f64;
+        for (index, Segment { shape: level, duration, .. }) in self.segments.iter().enumerate() {
+            let up =
+                vertical.and_then(|vertical| vertical.segments.get(index)).map_or(&SumSegment::QUIET, |segment| &segment.shape);
+            let at = |time: f64| (level.acceleration(time).abs(), 1.0 + up.acceleration(time));
+            let (first, last) = (at(0.0), at(*duration));
+            steepest = steepest.max(first.0 / first.1).max(last.0 / last.1);
+            let mut spans = vec![(0.0, first, *duration, last)];
+            while let Some((from, first, to, last)) = spans.pop() {
+                // What lies between two instants is no further from the chord than this times the curvature.
+                let apart = (to - from) * (to - from) / 8.0;
+                let push = first.0.max(last.0) + level.curvature_bound() * apart;
+                let weight = first.1.min(last.1) - up.curvature_bound() * apart;
+                let middle = 0.5 * (from + to);
+                if push <= (steepest + 1e-9) * weight || middle <= from || middle >= to {
+                    continue;
+                }
+                let value = at(middle);
+                steepest = steepest.max(value.0 / value.1);
+                spans.extend([(middle, value, to, last), (from, first, middle, value)]);
+            }
+        }
+        steepest
+    }
 }
 
 /// Times from 0 on at which a sum of `components` may kink or jump, in order.
@@ -278,5 +305,24 @@ mod tests {
         let (lowest, when) = sine.lowest();
         assert!((lowest + 0.4).abs() < 1e-9 && (when - 0.5 - 1.5 * core::f64::consts::PI / 7.0).abs() < 1e-4);
         assert_eq!(GroundMotion::default().lowest(), (0.0, 0.0));
+    }
+
+    #[test]
+    fn nothing_is_steeper_than_the_steepest_and_it_is_taken() {
+        let parts = parts();
+        for split in 0..=parts.len() {
+            let [level, up] = GroundMotion::aligned(&parts[..split], &parts[split..]);
+            for vertical in [None, Some(&up)] {
+                let steepest = level.steepest(vertical);
+                let lean = |time: f64| at(&level, time).abs() / (1.0 + vertical.map_or(0.0, |up| at(up, time)));
+                let largest = (0..=450_000).map(|k| lean(1e-5 * f64::from(k))).fold(0.0, f64::max);
+                // A jump may lie between two instants.
+                assert!((-2e-9..1e-4).contains(&(steepest - largest)), "{split}: {steepest} {largest}");
+            }
+        }
+        let sine =
+            |amplitude: f64| Component::pulse(0.0, 1.0, AnySegment::Sine(Harmonics::sine(amplitude, core::f64::consts::TAU)));
+        assert!((GroundMotion::sum(&[sine(0.2), sine(-0.15)]).steepest(None) - 0.05).abs() < 1e-9);
+        assert_eq!(GroundMotion::sum(&[sine(0.2)]).steepest(None), 0.2);
     }
 }

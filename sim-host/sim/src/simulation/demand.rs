@@ -11,7 +11,6 @@ use sprag_shared::structure::gear_teeth::{Gear, tooth_load_ratios};
 use sprag_shared::structure::inertance::Flywheel;
 
 use super::run::Task;
-use crate::ground_motion::GroundMotion;
 use crate::scene::Scene;
 use crate::scene::checks::{ChecksTable, GearTable};
 use crate::scene::device::FlywheelTable;
@@ -156,13 +155,10 @@ pub(crate) fn tooth_stresses(gear: &GearTable, scene: &Scene, index: usize, forc
     ratios.iter().map(|ratio| tooth.bending_stress(load * ratio) * 1e-6).collect()
 }
 
-/// Largest |ü_g/g|/(1 + v̈_g/g), by the bounds of both, of a block that never rocks, where `table` asks for the friction: up to tan α it would
-/// slide before it does.
+/// Largest |ü_g/g|/(1 + v̈_g/g) of a block that never rocks, where `table` asks for the friction: up to tan α it would slide before it does.
 fn standing_friction(task: &Task<'_>, table: &ChecksTable) -> Option<f64> {
     let stands = matches!(task.scene.file.block.base(), Base::Rigid) && table.friction_coefficient.is_some();
-    let largest = task.ground.horizontal.segments().iter().map(|segment| segment.bound).fold(0.0, f64::max);
-    let lightest = task.ground.vertical.as_ref().map_or(1.0, GroundMotion::lightest);
-    stands.then(|| largest / lightest)
+    stands.then(|| task.ground.horizontal.steepest(task.ground.vertical.as_ref()))
 }
 
 impl Demand {

@@ -285,6 +285,25 @@ fn a_block_that_slides_before_it_rocks_is_warned_of() {
     assert_eq!(runs(0.5, "kind = 'inerter'", "[checks]").remove(0).checks.unwrap().friction_needed, None);
 }
 
+/// Two pulses that nearly cancel push as little as their sum, and a push after a vertical motion is not larger for it.
+#[test]
+fn a_standing_block_needs_the_friction_of_the_motions_together() {
+    let pulse = "motion = 'sine', frequency_hz = 2.0";
+    for (more, needed) in [
+        (format!("ground = [{{ {pulse}, amplitude_g = 0.2 }}, {{ {pulse}, amplitude_g = -0.15 }}]"), 0.05),
+        (
+            format!("ground = [{{ {pulse}, amplitude_g = 0.1, start_s = 1.0 }}]\nvertical = [{{ {pulse}, amplitude_g = 0.5 }}]"),
+            0.1,
+        ),
+    ] {
+        let text = format!(
+            "block = {{ size_m = 2.0, slenderness_deg = 20.0 }}\ndevice = [{{ kind = 'none' }}]\n{more}\nchecks = {{ friction_coefficient = 0.15 }}"
+        );
+        let checks = runs_of(&text).remove(0).checks.unwrap();
+        assert!((checks.friction_needed.unwrap() - needed).abs() < 1e-9 && checks.warnings.is_empty(), "{checks:?}");
+    }
+}
+
 /// On still ground the clutch of a block that falls closes where θ̈ is 0, at |θ| = α: no part of its blow belongs to what was before the fall.
 #[test]
 fn rounding_does_not_decide_whether_a_clutch_closes_before_the_fall() {
