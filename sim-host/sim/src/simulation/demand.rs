@@ -231,6 +231,7 @@ impl Demand {
         }
         if let (Some(limit), Some(stroke)) = (table.largest_stroke_m, self.stroke_m)
             && stroke > limit
+            && task.device().device.kind != DeviceKind::None
         {
             let against = if task.carried() { " against the ground, without what their support moves" } else { "" };
             warn(format!("the terminals travel {stroke:.4} m{against}; the limit is {limit} m"));

@@ -87,6 +87,16 @@ fn a_warning_of_the_stroke_on_a_support_of_its_own_says_what_is_not_in_it() {
     }
 }
 
+/// The block alone has no terminals.
+#[test]
+fn a_block_without_a_device_is_not_warned_of_its_stroke() {
+    let text =
+        "block = { size_m = 2.0, slenderness_deg = 10.0 }\ndevice = [{ kind = 'none' }]\nchecks = { largest_stroke_m = 1e-6 }
+        ground = [{ motion = 'sine', amplitude_ratio = 5.0, frequency_ratio = 9.0 }]";
+    let run = runs_of(text).remove(0);
+    assert!(run.impulses.impact_friction_needed.is_some() && run.checks.unwrap().warnings.is_empty());
+}
+
 /// Plates behind a stiff spring pass no more than their capacity, at a large tolerance too.
 #[test]
 fn a_spring_passes_no_more_than_its_plates() {
