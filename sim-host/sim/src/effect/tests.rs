@@ -67,6 +67,7 @@ fn on_feet_the_equation_is_that_of_feet() {
     let [_, foundation] = BASES.map(|text| Scene::parse(text, "scene").unwrap());
     let text = text_of(&Explanation::of(&foundation, 0));
     assert!(text.contains("ÿ = φ₁ + φ₂") && text.contains("no impact") && !text.contains("λ θ̈ ="), "{text}");
+    assert!(text.contains("the paper's kinematics leave nσ out of the θ̇² term"), "{text}");
 }
 
 #[test]
