@@ -177,10 +177,12 @@ pub(super) fn shortened(text: &str, width_px: f64) -> String {
     format!("{}…{}", escape(kept.trim_end()), escape(tail))
 }
 
-/// Lines of the formulas `conditions`, broken between them.
+/// Lines of the formulas `conditions`, broken between them, and sums of motions that are wider than a line before a motion.
 fn lines_of(conditions: &[String], width_px: f64) -> Vec<String> {
-    let fits = |line: &str, next: &str| formula_width_px(&format!("{line}, {next}"), CONDITIONS_FONT_PX) <= width_px;
-    in_lines(conditions.iter().map(String::as_str), ", ", fits)
+    let fits = |text: &str| formula_width_px(text, CONDITIONS_FONT_PX) <= width_px;
+    let lines = in_lines(conditions.iter().map(String::as_str), ", ", |line, next| fits(&format!("{line}, {next}")));
+    let in_motions = |line: &String| in_lines(line.split_inclusive(" + "), "", |line, next| fits(&format!("{line}{next}")));
+    lines.iter().flat_map(in_motions).collect()
 }
 
 /// Lines of `title`, broken at spaces, and words wider than a line after their hyphens; without one a word may still be too wide.
@@ -218,5 +220,13 @@ mod tests {
         let outcome = shortened(&format!("{} (safe)", "x".repeat(500)), 300.0);
         assert!(outcome.ends_with("x… (safe)"));
         assert_eq!(shortened("a & b", 300.0), "a &amp; b");
+    }
+
+    #[test]
+    fn a_sum_of_many_motions_goes_on_below() {
+        let motion = "Mavroeidis-Papageorgiou pulse (*A* = 0.2 m/s, *f*_g = 1 Hz, γ = 2, ν = 30°)";
+        let lines = lines_of(&["α = 10°".to_owned(), [motion; 4].join(" + ")], 668.0);
+        assert!(lines.len() > 2 && lines.iter().all(|line| formula_width_px(line, CONDITIONS_FONT_PX) <= 668.0), "{lines:?}");
+        assert_eq!(lines.concat(), format!("α = 10°{}", [motion; 4].join(" + ")));
     }
 }
