@@ -40,7 +40,9 @@ pub fn from_table<T: Described>(table: toml::Table, origin: &str) -> Result<T, S
 pub fn table(text: &str, origin: &str) -> Result<toml::Table, SceneError> {
     text.parse().map_err(|error: toml::de::Error| {
         let line = error.span().map(|span| line_at(text, span.start));
-        SceneError::syntax(origin, line, "", error.message())
+        // What the library says of an integer that only 128 bits hold is no sentence; this is what it says of longer ones.
+        let message = if error.message().contains("` as i128, expected") { "integer number overflowed" } else { error.message() };
+        SceneError::syntax(origin, line, "", message)
     })
 }
 

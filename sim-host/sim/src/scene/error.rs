@@ -172,6 +172,10 @@ fn in_words(message: &str) -> Option<String> {
     if message.starts_with("invalid length ") && message.contains(", expected struct ") {
         return Some("is a list, but must be a table".to_owned());
     }
+    // What a choice of words says of a table.
+    if message.starts_with("wanted exactly 1 element, found ") {
+        return Some("is a table, but must be a text in quotes".to_owned());
+    }
     let (found, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
     let found = match found {
         "map" => "a table".to_owned(),

@@ -53,6 +53,9 @@ fn a_value_outside_its_range_is_named_with_its_line() {
         let error = Scene::parse(&SCENE.replace(written, wrong), "scene.toml").unwrap_err().to_string();
         assert!(error.starts_with(message), "{error}");
     }
+    // One that no number of TOML can be is not yet that of a key.
+    let error = Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 99999999999999999999999"), "scene.toml").unwrap_err();
+    assert_eq!(error.to_string(), "scene.toml:4: integer number overflowed");
     // A value of the command line has none.
     assert!(refused(&["block.size_m=0"]).starts_with("scene.toml: block.size_m is 0"));
 }
@@ -115,6 +118,7 @@ fn the_key_or_the_word_that_was_probably_meant_is_named() {
         ("device.1.kind=inertr", "device.1.kind is \"inertr\"; did you mean \"inerter\"?"),
         ("ground.0.motion=sinus", "ground.0.motion is \"sinus\"; did you mean \"sine\"?"),
         ("device.1.kind=damper", "device.1.kind: unknown variant `damper`, expected one of `none`"),
+        ("device.1.kind={}", "device.1.kind is a table, but must be a text in quotes"),
         ("block.colour=3", "unknown field `colour`, expected one of `size_m`"),
         ("accuracy.level=true", "accuracy.level: must be fast, normal, tight, or a relative error of the peak rotation"),
         ("accuracy.level=[1e-6]", "accuracy.level: must be fast, normal, tight, or a relative error of the peak rotation"),
