@@ -112,10 +112,14 @@ impl Scene {
         if file.device.is_empty() {
             return Err(key("device").missing("at least one [[device]] table"));
         }
-        let mut devices = Vec::new();
+        let mut devices: Vec<SceneDevice> = Vec::new();
         for (index, table) in file.device.iter().enumerate() {
             let key = |name: &str| key(&format!("device.{index}.{name}"));
             let device = SceneDevice::resolve(table, &file.device, &block, file.block.mass_kg, &key)?;
+            // Tables have a device by its name.
+            if devices.iter().any(|other| other.name == device.name) {
+                return Err(key("name").conflict(&format!("{:?} is another device's; each needs a name of its own", device.name)));
+            }
             // Everything that the core refuses is found here, before any work.
             let structure = structure(&file, block, restitution, &device);
             let structure = Structure { restitution_scatter: RestitutionScatter::NONE, base: Base::Rigid, ..structure };

@@ -61,6 +61,15 @@ fn a_value_outside_its_range_is_named_with_its_line() {
 }
 
 #[test]
+fn each_device_needs_a_name_of_its_own() {
+    for names in [&["device.0.name=a", "device.1.name=a"] as &[&str], &["device.0.name=clutched pair"]] {
+        let message = refused(names);
+        assert!(message.contains("device.1.name: ") && message.contains("is another device's"), "{message}");
+    }
+    Scene::parse_with(SCENE, "scene.toml", &["device.0.name=a"]).unwrap();
+}
+
+#[test]
 fn a_key_with_a_line_break_is_named_on_one_line() {
     let error =
         Scene::parse(&SCENE.replace("size_m = 2.0", "size_m = 2.0\n\"a\\nb\" = 1"), "scene.toml").unwrap_err().to_string();
