@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap_mangen::Man;
-use sprag_report::output::{OutputError, Results};
+use sprag_report::output::{OutputError, ResultFolder, Results};
 
 use super::context::{Completion, Context, Run};
 
@@ -20,12 +20,12 @@ pub struct ManualArguments {
 
 impl Run for ManualArguments {
     fn run(&self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
-        let folder = &self.folder;
-        std::fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, &error))?;
+        let mut folder = ResultFolder::new(self.folder.clone(), true);
+        folder.make("")?;
         let mut definition = crate::line::definition().disable_help_subcommand(true);
         definition.build();
         let mut pages = Results::default();
-        add(&definition, folder, &mut pages)?;
+        add(&definition, &folder, &mut pages)?;
         pages.commit()?;
         context.print(format_args!("pages in {}\n", folder.display()));
         Ok(Completion::Complete)

@@ -131,17 +131,15 @@ fn an_output_place_that_cannot_be_written_costs_one_line() {
 fn a_full_disk_leaves_nothing_behind() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let command = format!(
-        "trap '' XFSZ; ulimit -f 16; exec '{}' simulate '{}' --out '{}'",
-        env!("CARGO_BIN_EXE_sprag"),
-        scene("near_fault"),
-        out.display()
-    );
-    let output = Command::new("bash").args(["-c", &command]).output().unwrap();
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{message}");
-    assert!(message.contains("cannot be written") && message.trim_end().lines().count() == 1, "{message}");
-    assert!(!out.exists(), "an empty folder");
+    for (kilobytes, command) in [(16, format!("simulate '{}' --out", scene("near_fault"))), (1, "manual".to_owned())] {
+        let sprag = env!("CARGO_BIN_EXE_sprag");
+        let command = format!("trap '' XFSZ; ulimit -f {kilobytes}; exec '{sprag}' {command} '{}'", out.display());
+        let output = Command::new("bash").args(["-c", &command]).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(message.contains("cannot be written") && message.trim_end().lines().count() == 1, "{message}");
+        assert!(!out.exists(), "an empty folder");
+    }
 }
 
 /// Expects that `command` refuses `file`, with `more` on its line.
