@@ -81,7 +81,7 @@ impl OutputArguments {
 /// `records` are files that it reads beside those of the scene.
 ///
 /// # Errors
-/// [`OutputError`] when the scene cannot be written as JSON.
+/// [`OutputError`] names a record whose name JSON cannot hold.
 pub(super) fn claim_of_scene<'a>(
     command: &str,
     path: &Path,
@@ -92,8 +92,13 @@ pub(super) fn claim_of_scene<'a>(
 ) -> Result<Claim<'a>, OutputError> {
     let supports: Vec<GroundTable> = file.support_records().collect();
     let tables = file.ground.iter().chain(&file.vertical).chain(&supports);
-    let of_scene = tables.filter_map(|table| Some((table.file.clone()?, table.path(&scene.folder)?)));
-    let read: Vec<(PathBuf, PathBuf)> = of_scene.chain(records.iter().map(|path| (path.clone(), path.clone()))).collect();
+    let of_scene: Vec<_> = tables.filter_map(|table| Some((table.file.clone()?, table.path(&scene.folder)?))).collect();
+    if let Some((name, _)) = of_scene.iter().find(|(name, _)| name.to_str().is_none()) {
+        let reason = "its name is not Unicode, and summary.json has to name it; rename the file".to_owned();
+        return Err(OutputError { path: name.clone(), reason });
+    }
+    let read: Vec<(PathBuf, PathBuf)> =
+        of_scene.into_iter().chain(records.iter().map(|path| (path.clone(), path.clone()))).collect();
     let subject = Subject::new(command, digests(&read)).with("scene", file)?;
     let inputs = std::iter::once(path.to_owned()).chain(read.into_iter().map(|(_, path)| file_of(&path))).collect();
     Ok(Claim { subject, page: "summary.json", names, inputs })

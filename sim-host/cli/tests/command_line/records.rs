@@ -316,3 +316,19 @@ fn decimal_commas_are_read_in_every_command() {
     assert_eq!(one["runs"], other["runs"]);
     assert!(stderr.contains("commas are read as decimal marks"), "{stderr}");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_record_whose_name_is_not_unicode_is_named() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = Folder::new();
+    let record = folder.0.path().join(std::ffi::OsStr::from_bytes(b"own\xff.csv"));
+    fs::write(&record, pulse(0.4)).unwrap();
+    let line = ["simulate", &scene("record"), "--out", &folder.name("out"), "--record"];
+    let output = command(&line).arg(&record).output().unwrap();
+    assert!(
+        output.status.code() == Some(2) && said(&output).contains("own\u{fffd}.csv: its name is not Unicode"),
+        "{}",
+        said(&output)
+    );
+}
