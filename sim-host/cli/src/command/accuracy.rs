@@ -92,6 +92,6 @@ impl Run for AccuracyCommandArguments {
             report.picture(name, Ok(figure))?;
         }
         report.print(page.for_terminal());
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }

@@ -111,7 +111,7 @@ impl Run for LoopArguments {
         }
         runs.iter().for_each(|run| report.print(run));
         report.note_checks(runs.iter().map(|run| (run.device.as_str(), run.checks.as_ref())));
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

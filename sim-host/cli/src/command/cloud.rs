@@ -118,7 +118,7 @@ impl Run for CloudArguments {
         context.check_interrupt()?;
         fill(&mut report, &studied, rows, &findings, &warnings)?;
         report.complete(complete);
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

@@ -128,7 +128,7 @@ impl Run for DesignArguments {
         warnings.extend(context.warned(warning_lines(&records)));
         let mut report = Report::new("design", &folder, &self.output)?;
         fill(&mut report, self, &designed, &records, &warnings)?;
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

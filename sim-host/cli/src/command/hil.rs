@@ -98,7 +98,7 @@ impl Run for HilArguments {
             report.note(format_args!("at {differing} ticks the device decided otherwise than the host, or reported nothing"));
             report.complete(false);
         }
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

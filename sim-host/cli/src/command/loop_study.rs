@@ -135,7 +135,7 @@ impl Run for LoopStudyArguments {
         }
         report.print(made.page.for_terminal());
         report.accuracy(worst);
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

@@ -165,7 +165,7 @@ impl Run for MapArguments {
             }
             print_boundaries(&mut report, &boundaries, &seconds);
         }
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

@@ -148,7 +148,7 @@ impl Run for OptimiseArguments {
             report.note(format_args!("{}: {why}; results are written", self.input.study.display()));
         }
         report.complete(findings.best.is_some() && records.unreadable.is_empty() && solution.failures.is_empty());
-        let ending = report.finish(context)?;
+        let ending = report.finish(&folder, context)?;
         answered.tried.map_or(Ok(()), Tried::discard)?;
         Ok(ending)
     }

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use sprag_report::columns::{Column, Table, metadata_of};
 use sprag_report::long_run::rows::Rows;
-use sprag_report::output::{Formats, Maker, OutputError, Results, RowTaker, SCHEMA_VERSION, Subject, Summary, VERSION};
+use sprag_report::output::{
+    Formats, Maker, OutputError, ResultFolder, Results, RowTaker, SCHEMA_VERSION, Subject, Summary, VERSION,
+};
 use sprag_report::plot::PlotError;
 use sprag_report::progress::Progress;
 use sprag_report::terminal::for_terminal;
@@ -202,12 +204,13 @@ impl Report {
         self.completion = Completion::of(complete);
     }
 
-    /// Puts all files in their places and prints the text, or with `--json` the summary, and the text on standard error.
+    /// Puts all files in their places in `folder` and prints the text, or with `--json` the summary, and the text on standard error.
     ///
     /// # Errors
-    /// An interrupt, rows that are not as they were written, and [`OutputError`].
-    pub fn finish(self, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+    /// An interrupt, rows that are not as they were written, results of another run that have come there meanwhile, and [`OutputError`].
+    pub fn finish(self, folder: &ResultFolder, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         context.check_interrupt()?;
+        folder.check_again()?;
         self.rows.map_or(Ok(()), |rows| rows.finish().map(drop))?;
         self.results.commit_with_notes(&mut context.err)?;
         drop(self.drawing);

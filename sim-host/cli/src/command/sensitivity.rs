@@ -76,7 +76,7 @@ impl Run for SensitivityArguments {
         warnings.extend(context.warned(warning_lines(&records)));
         let mut report = Report::new("sensitivity", &folder, &self.output)?;
         fill(&mut report, &studied, &records, &warnings)?;
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

@@ -128,7 +128,7 @@ impl Run for SimilarArguments {
                 report.print(format_args!("{}, {}: {}", block.name, run.device, in_words(&departure, overturned)));
             }
         }
-        report.finish(context)
+        report.finish(&folder, context)
     }
 }
 

@@ -110,7 +110,7 @@ impl Run for SimulateArguments {
             friction_lines(&runs).iter().for_each(|line| report.print(line));
         }
         report.note_checks(runs.iter().map(|run| (run.device.as_str(), run.checks.as_ref())));
-        let ending = report.finish(context)?;
+        let ending = report.finish(&folder, context)?;
         if self.open
             && let Some(picture) = picture
             && open::that_detached(&picture).is_err()

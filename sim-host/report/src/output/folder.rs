@@ -61,14 +61,15 @@ pub struct ResultFolder {
     path: PathBuf,
     overwrite: bool,
     any_accuracy: bool,
-    open: bool,
+    /// What it was opened for, and the result that says so.
+    opened: Option<(Subject, PathBuf)>,
     made: Vec<PathBuf>,
 }
 
 impl ResultFolder {
     /// The folder at `path`, which need not be there; whether results of other commands and inputs in it may be overwritten.
     pub fn new(path: PathBuf, overwrite: bool) -> ResultFolder {
-        ResultFolder { path, overwrite, any_accuracy: false, open: false, made: Vec::new() }
+        ResultFolder { path, overwrite, any_accuracy: false, opened: None, made: Vec::new() }
     }
 
     /// Whether results of another accuracy are of the same subject: where a time budget chooses it.
@@ -84,13 +85,24 @@ impl ResultFolder {
     /// # Errors
     /// [`OutputError`] says whose place it would be, or why the folder cannot be made.
     pub fn open(&mut self, claim: &Claim<'_>) -> Result<(), OutputError> {
-        if self.open {
+        if self.opened.is_some() {
             return Ok(());
         }
         self.check(claim)?;
         self.make("")?;
-        self.open = true;
+        self.opened = Some((claim.subject.clone(), self.path.join(claim.page)));
         Ok(())
+    }
+
+    /// Refuses to take the place of what another process has put here since the folder was opened, as [`ResultFolder::open`] does.
+    ///
+    /// # Errors
+    /// [`OutputError`] says whose place it would be.
+    pub fn check_again(&self) -> Result<(), OutputError> {
+        match &self.opened {
+            Some((subject, page)) if !self.overwrite && page.exists() => self.check_page(subject, page),
+            _ => Ok(()),
+        }
     }
 
     fn check(&self, claim: &Claim<'_>) -> Result<(), OutputError> {
@@ -111,9 +123,7 @@ impl ResultFolder {
         let mut known = false;
         for name in names.iter().filter(|name| *name == claim.page || claim.is_ledger(name)) {
             known = true;
-            if let Some(reason) = self.other(claim, &self.path.join(name)) {
-                return Err(OutputError { path: self.path.clone(), reason: format!("{reason}; {REPLACE}") });
-            }
+            self.check_page(&claim.subject, &self.path.join(name))?;
         }
         match names.first() {
             Some(name) if !known => {
@@ -124,17 +134,23 @@ impl ResultFolder {
         }
     }
 
-    /// What the results of the page at `path` are of, if not of the subject of `claim`.
-    fn other(&self, claim: &Claim<'_>, path: &Path) -> Option<String> {
+    /// Refuses the results of the page at `path` if they are not of `subject`.
+    fn check_page(&self, subject: &Subject, path: &Path) -> Result<(), OutputError> {
+        let refuse = |reason| OutputError { path: self.path.clone(), reason: format!("{reason}; {REPLACE}") };
+        self.other(subject, path).map_or(Ok(()), |reason| Err(refuse(reason)))
+    }
+
+    /// What the results of the page at `path` are of, if not of `subject`.
+    fn other(&self, subject: &Subject, path: &Path) -> Option<String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let page: Option<Value> = fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
         let Some((page, command)) = page.as_ref().and_then(|page| Some((page, page.get("command")?.as_str()?))) else {
             return Some(format!("its {name} is no result of sprag"));
         };
-        if command != claim.subject.command {
+        if command != subject.command {
             return Some(format!("it holds results of `sprag {command}`"));
         }
-        let what = claim.subject.difference(page, self.any_accuracy)?;
+        let what = subject.difference(page, self.any_accuracy)?;
         Some(format!("it holds results of another run of `sprag {command}`: {what} differs"))
     }
 

@@ -173,6 +173,25 @@ fn results_are_replaced_by_their_like_or_when_asked() {
 }
 
 #[test]
+fn results_that_come_meanwhile_are_not_replaced_unasked() {
+    let folder = tempfile::tempdir().unwrap();
+    let (ours, other) = (claim("map", &json!(1)), claim("map", &json!(2)));
+    let opened = [false, true].map(|overwrite| {
+        let mut opened = ResultFolder::new(folder.path().to_owned(), overwrite);
+        opened.open(&ours).unwrap();
+        opened.check_again().unwrap();
+        opened
+    });
+    let meanwhile = |claim: &Claim<'_>| {
+        fs::write(folder.path().join("summary.json"), serde_json::to_string(&claim.subject).unwrap()).unwrap();
+        opened.each_ref().map(|folder| folder.check_again().map_err(|error| error.to_string()))
+    };
+    let [refused, overwritten] = meanwhile(&other);
+    assert!(refused.unwrap_err().contains("scene differs; --overwrite replaces it") && overwritten.is_ok());
+    assert_eq!(meanwhile(&ours), [Ok(()), Ok(())]);
+}
+
+#[test]
 fn an_input_is_never_replaced() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
