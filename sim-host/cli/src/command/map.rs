@@ -20,7 +20,7 @@ use sprag_sim::scene::{Scene, SceneError, document, overrides, text_of};
 use sprag_studies::map::boundary_figure;
 use sprag_studies::map::boundary_table::boundary_table;
 use sprag_studies::map::figures::figures;
-use sprag_studies::map::study::{MapError, study_to};
+use sprag_studies::map::study::study_to;
 use sprag_studies::map::table::{Labels, columns};
 use sprag_studies::map::tally::{Counts, DeviceMap, Tally};
 
@@ -126,12 +126,18 @@ impl Run for MapArguments {
         let progress = Progress::new("cells");
         let whole = pool.install(|| study_to(&mut rows, &grid, &labels, &mut tally, &progress, interrupt));
         progress.finish();
-        let failed = |error: MapError| {
-            if self.long_run.in_scratch { anyhow::Error::from(error) } else { anyhow::anyhow!("{error}; {}", rows.interrupted()) }
-        };
-        if !whole.map_err(failed)? {
-            interrupt.keep(rows.interrupted());
-            return Err(rows.interrupted().into());
+        match whole {
+            Ok(true) => {}
+            Ok(false) => {
+                interrupt.keep(rows.interrupted());
+                return Err(rows.interrupted().into());
+            }
+            Err(error) if self.long_run.in_scratch => return Err(error.into()),
+            Err(error) if rows.done() == 0 => {
+                rows.discard()?;
+                return Err(error.into());
+            }
+            Err(error) => anyhow::bail!("{error}; {}", rows.interrupted()),
         }
         if shard != Shard::WHOLE {
             context.print(format_args!("shard {shard}: {}\n", rows.finish()?.display()));

@@ -56,6 +56,14 @@ fn an_error_within_a_map_or_a_loop_names_its_key() {
     let rows = fs::read_to_string(Path::new(&out).join("map.csv.unfinished")).unwrap().lines().count() - 1;
     let kept = format!("; {rows} of 9 rows are kept; the same command with --resume continues");
     assert!(message.trim_end().ends_with(&kept), "{message}");
+    // Where nothing is there, there is nothing to resume.
+    let out = folder.path().join("none");
+    let arguments = ["map", &map, "--cut", "--out", out.to_str().unwrap(), "--x", "vertical.0.amplitude_g=1:2:3"];
+    refused(
+        &[&arguments[..], vertical.as_flattened()].concat(),
+        &out,
+        &["vertical.0.amplitude_g=1: ", "the ground would fall away"],
+    );
     let (controller, out) = (scene("controller"), folder.path().join("loop"));
     let belief = ["--set", "block.slenderness_deg=80", "--set", "controller.belief.slenderness_factor=1.2"];
     let arguments = [&["loop", &controller, "--out", out.to_str().unwrap()][..], &belief[..]].concat();

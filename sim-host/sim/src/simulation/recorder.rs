@@ -87,12 +87,10 @@ impl<'a> Recorder<'a> {
 
     /// Closes the history at `end` (s): what is pending is written, and a block at rest stays so until then.
     pub fn finish(&mut self, end: f64, at_rest: bool) {
-        // A flywheel may spin on under a block at rest.
-        let seen = self.pending.is_some_and(|last| last.time_s >= end);
-        if at_rest && !self.carried && !seen {
+        self.flush();
+        // A flywheel that spins on has been seen up to there.
+        if at_rest && !self.carried && self.samples.last().is_none_or(|last| last.time_s < end) {
             self.stand_to(end);
-        } else {
-            self.flush();
         }
     }
 
@@ -297,7 +295,8 @@ mod tests {
             ground = [
                 { motion = 'sine', amplitude_ratio = 1.5, frequency_ratio = 6.0 },
                 { motion = 'sine', amplitude_ratio = 0.5, frequency_ratio = 6.0, start_s = 1.0 },
-            ]",
+            ]
+            run = { free_time_s = 0.0 }",
         )
         .remove(0);
         let standing = run.history.samples.iter().skip_while(|sample| Some(&sample.time_s) != run.history.impacts_s.last());
