@@ -225,8 +225,8 @@ impl Default for ControllerTable {
     }
 }
 
-/// Ticks that a controller counts of its least time between two commands.
-const MOST_DWELL: f64 = u16::MAX as f64;
+/// Ticks that a controller counts of its least time between two commands, and of the clutches' lags.
+const MOST_TICKS: f64 = u16::MAX as f64;
 
 impl ControllerTable {
     /// The sensors; `origin` is the scene's name in messages.
@@ -245,10 +245,16 @@ impl ControllerTable {
         if self.sign_table.is_some() && self.law != LawName::SignTable {
             return Err(key("controller.sign_table").conflict("only the law \"sign-table\" has a table"));
         }
-        let ticks = (self.dwell_s * self.rate_hz).round();
-        if ticks > MOST_DWELL {
-            let range = format!("at most {MOST_DWELL} ticks, {} s", MOST_DWELL / self.rate_hz);
-            return Err(key("controller.dwell_s").range(self.dwell_s, &range));
+        let believed = if self.feedback == FeedbackName::Current { self.belief.lag_factor } else { 0.0 };
+        for (name, time, factor) in [
+            ("dwell_s", self.dwell_s, 1.0),
+            ("closing_lag_s", self.closing_lag_s, believed),
+            ("opening_lag_s", self.opening_lag_s, believed),
+        ] {
+            if (time * factor * self.rate_hz).round() > MOST_TICKS {
+                let range = format!("at most {MOST_TICKS} ticks, {} s", MOST_TICKS / (factor * self.rate_hz));
+                return Err(key(&format!("controller.{name}")).range(time, &range));
+            }
         }
         let suite = self.sensors.resolve(&|name: &str| key(&format!("controller.{name}")))?;
         self.check_continuous(&suite, key)?;
@@ -332,6 +338,21 @@ mod tests {
             refused("rate_hz = 1e5\ndwell_s = 0.8").unwrap(),
             "scene: controller.dwell_s is 0.8, but must be at most 65535 ticks, 0.65535 s"
         );
+    }
+
+    #[test]
+    fn a_lag_of_more_ticks_than_a_controller_counts_is_refused() {
+        for lag in ["closing_lag_s", "opening_lag_s"] {
+            let text = |rate: &str, factor: &str| format!("rate_hz = {rate}\n{lag} = 1.0\nbelief = {{ lag_factor = {factor} }}");
+            let by_current = |rate: &str, factor: &str| refused(&format!("feedback = 'current'\n{}", text(rate, factor)));
+            assert_eq!(by_current("65535.0", "1.0"), None);
+            // By position no lag is believed in.
+            assert_eq!(refused(&text("1e5", "1.0")), None);
+            for (rate, factor, most) in [("1e5", "1.0", "0.65535"), ("1e4", "10.0", "0.65535")] {
+                let expected = format!("scene: controller.{lag} is 1, but must be at most 65535 ticks, {most} s");
+                assert_eq!(by_current(rate, factor), Some(expected));
+            }
+        }
     }
 
     /// 32 readings of a sensor that sees the motion 8,000 times a second cover 4 ms.
