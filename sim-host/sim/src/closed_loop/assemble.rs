@@ -2,6 +2,10 @@
 
 use sprag_shared::control::clutch_position::ClutchLag;
 use sprag_shared::control::controller::{Controller, Horizons};
+use sprag_shared::control::estimation::Estimator;
+use sprag_shared::control::estimation::complementary::Complementary;
+use sprag_shared::control::estimation::kalman::Kalman;
+use sprag_shared::control::estimation::model_aided::ModelAided;
 use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::costate::Costate;
 use sprag_shared::control::law::look_ahead::LookAhead;
@@ -12,7 +16,7 @@ use sprag_shared::control::supervisor::{Parameters, Supervisor};
 use sprag_shared::drivetrain::under_way::MOST_UNDER_WAY;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::settings::kind::{Description, Kind};
-use sprag_shared::settings::{SettingError, Settings};
+use sprag_shared::settings::{Item, SettingError, Settings};
 use sprag_shared::structure::Structure;
 use sprag_shared::structure::block::Block;
 use sprag_shared::structure::device::{DeviceKind, KinematicsKind};
@@ -229,7 +233,7 @@ impl<'a> LoopTask<'a> {
     /// As [`LoopTask::controller`], and for what a board's settings cannot be.
     pub fn settings(&self) -> Result<Settings, ParameterError> {
         let (controller, supervision) = self.supervised(self.controller.clutch_law())?;
-        Settings::of(&controller, &supervision).map_err(unfit)
+        Settings::of(&controller, &supervision).map_err(|error| unfit(error, &controller.estimator))
     }
 
     /// The controller by the law of its table, at power-on.
@@ -328,13 +332,22 @@ impl<'a> LoopTask<'a> {
 }
 
 /// A setting that a board refuses, as the parameter that it was made from.
-fn unfit(error: SettingError) -> ParameterError {
+fn unfit(error: SettingError, estimator: &Estimator) -> ParameterError {
     let name = |index| Description::at(index).map_or("settings", |description| description.name);
     match error {
         SettingError::OutOfRange { index, word } => {
             let real = Description::at(index).is_some_and(|description| description.kind == Kind::Real);
             let value = if real { f32::from_bits(word).into() } else { word.into() };
             ParameterError { parameter: name(index), value, range: "within what a board's settings allow" }
+        }
+        SettingError::Contradiction { index, .. } if index == Item::RotationByEncoder.index() => {
+            let gain = match estimator {
+                Estimator::ModelAided(ModelAided { gains: [[gain, _], _], .. }) => gain,
+                Estimator::Kalman(Kalman { gains: [[gain, ..], ..], .. }) => gain,
+                Estimator::Complementary(Complementary { gains: [gain, _], .. }) => gain,
+            };
+            let range = "such that with the other gains an estimator's errors die out, or a board refuses them";
+            ParameterError { parameter: name(index), value: (*gain).into(), range }
         }
         SettingError::Contradiction { index, .. } => {
             ParameterError { parameter: name(index), value: f64::NAN, range: "as its companion among a board's settings allows" }

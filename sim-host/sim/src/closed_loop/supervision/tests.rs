@@ -175,6 +175,17 @@ fn the_finest_encoder_is_compared_with_the_gyroscope() {
     assert!(desk.task(0, 1, &Interrupt::default()).settings().is_ok());
 }
 
+/// The delay of a gyroscope without noise is more than a filter that believes it at once can bear.
+#[test]
+fn gains_that_a_board_refuses_are_named_with_their_values() {
+    let sensors = "suite = 'mpu-6050', gyroscope = { noise_density_deg_s_rthz = 0, resolution_deg_s = 0 }";
+    let controller = format!("estimator = 'kalman'\n sensors = {{ {sensors} }}");
+    let desk = desk_of("slenderness_deg = 12.0", "engagement = 'rigid'", "amplitude_g = 0.4, frequency_hz = 1.3", &controller);
+    let error = desk.task(0, 1, &Interrupt::default()).settings().unwrap_err();
+    assert_eq!(error.parameter, "estimator.rotation_by_encoder");
+    assert!(error.value.is_finite(), "{error}");
+}
+
 #[test]
 fn a_slow_or_late_encoder_is_no_fault() {
     for encoder in ["rate_hz = 250", "rate_hz = 1000, latency_s = 0.01"] {
