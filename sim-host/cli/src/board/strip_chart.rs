@@ -7,7 +7,7 @@ use sprag_shared::link::TickReport;
 use textplots::{Chart, LabelBuilder, LabelFormat, Plot, Shape};
 
 /// What is shown at a time, s.
-const SPAN: f32 = 10.0;
+const SPAN: f64 = 10.0;
 /// Points across and down; a character has two by four.
 const SIZE: (u32, u32) = (140, 32);
 /// Least half height, rad and rad/s, so that noise at rest is not blown up to a storm.
@@ -16,21 +16,21 @@ const LEAST: f32 = 1e-4;
 /// The last reports.
 #[derive(Debug)]
 pub struct StripChart {
-    period: f32,
-    reports: VecDeque<(f32, TickReport)>,
+    period: f64,
+    reports: VecDeque<(f64, TickReport)>,
     first: Option<u32>,
 }
 
 impl StripChart {
     /// Of a device with this time from tick to tick, s.
     pub fn new(period: f32) -> StripChart {
-        StripChart { period, reports: VecDeque::new(), first: None }
+        StripChart { period: period.into(), reports: VecDeque::new(), first: None }
     }
 
-    /// Adds a report; gives its time since the first, s.
-    pub fn add(&mut self, report: TickReport) -> f32 {
+    /// Adds a report; gives its time since the first, s: in double precision, for after two days a single one has steps of 8 ms.
+    pub fn add(&mut self, report: TickReport) -> f64 {
         let first = *self.first.get_or_insert(report.tick);
-        let time = report.tick.wrapping_sub(first) as f32 * self.period;
+        let time = f64::from(report.tick.wrapping_sub(first)) * self.period;
         self.reports.push_back((time, report));
         while self.reports.front().is_some_and(|(earliest, _)| *earliest < time - SPAN) {
             self.reports.pop_front();
@@ -59,18 +59,18 @@ impl StripChart {
         text
     }
 
-    fn start(&self) -> f32 {
+    fn start(&self) -> f64 {
         self.reports.back().map_or(0.0, |(time, _)| (time - SPAN).max(0.0))
     }
 
     /// A curve and its half height.
     fn curve(&self, of: impl Fn(&TickReport) -> f32) -> (f32, String) {
-        let finite = self.reports.iter().map(|(time, report)| (*time, of(report))).filter(|(_, value)| value.is_finite());
+        let finite = self.reports.iter().map(|(time, report)| (*time as f32, of(report))).filter(|(_, value)| value.is_finite());
         let points: Vec<(f32, f32)> = finite.collect();
         let most = points.iter().map(|(_, value)| value.abs()).fold(LEAST, f32::max);
-        let start = self.start();
+        let start = self.start() as f32;
         let shape = Shape::Lines(&points);
-        let mut chart = Chart::new_with_y_range(SIZE.0, SIZE.1, start, start + SPAN, -most, most);
+        let mut chart = Chart::new_with_y_range(SIZE.0, SIZE.1, start, start + SPAN as f32, -most, most);
         // Its own labels have one decimal.
         let chart = chart.lineplot(&shape).x_label_format(LabelFormat::None).y_label_format(LabelFormat::None);
         chart.axis();
@@ -83,7 +83,7 @@ impl StripChart {
         let columns = SIZE.0 as usize / 2;
         let mut strip = vec!['·'; columns];
         for (time, report) in &self.reports {
-            let column = ((time - self.start()) / SPAN * columns as f32) as usize;
+            let column = ((time - self.start()) / SPAN * columns as f64) as usize;
             if report.decision.command[wheel] {
                 strip[column.min(columns - 1)] = '█';
             }
@@ -116,6 +116,14 @@ mod tests {
             }
             assert!(chart.draw().contains("Rocking"), "{value}");
         }
+    }
+
+    #[test]
+    fn ticks_after_days_have_times_of_their_own() {
+        let mut chart = StripChart::new(5e-4);
+        chart.add(report(0, 0.0, [false; 2]));
+        let [first, second] = [1_000_000_000, 1_000_000_020].map(|tick| chart.add(report(tick, 0.0, [false; 2])));
+        assert!((second - first - 0.01).abs() < 1e-6, "{first} {second}");
     }
 
     #[test]

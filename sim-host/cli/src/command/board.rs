@@ -14,6 +14,7 @@ use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::Request;
 use sprag_shared::settings::{Item, Settings};
 use sprag_sim::interrupt::Interrupt;
+use sprag_sim::keys::bounds::Bounds;
 
 use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
@@ -157,8 +158,8 @@ struct WatchArguments {
     #[command(flatten)]
     line: LineArguments,
     /// End after this time of the device.
-    #[arg(long, value_name = "N")]
-    seconds: Option<f32>,
+    #[arg(long, value_name = "N", value_parser = super::number(Bounds { low: Some((0.0, false)), high: None }))]
+    seconds: Option<f64>,
 }
 
 pub(super) type Talk = Session<Box<dyn Line>>;
@@ -179,7 +180,9 @@ impl Run for BoardArguments {
             DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
             DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
             DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
-            DeviceCommand::Watch(given) => with_device(&given.line, out, |session, out| watch(session, given, out, interrupt)),
+            DeviceCommand::Watch(given) => {
+                with_device(&given.line, out, |session, out| watch(session, given.seconds, out, interrupt))
+            }
         };
         match ended {
             // Reported where standard output is.
@@ -412,7 +415,7 @@ const REDRAW: Duration = Duration::from_millis(200);
 /// A device that reports nothing for so long has gone.
 const SILENCE: Duration = Duration::from_secs(5);
 
-fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
+fn watch(session: &mut Talk, seconds: Option<f64>, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let period = parameters::read(session)?.period();
     let every = (FINE / period).round().clamp(1.0, f32::from(u16::MAX)) as u16;
     session.order(&Request::Stream { every })?;
@@ -422,7 +425,7 @@ fn watch(session: &mut Talk, given: &WatchArguments, out: &mut impl Write, inter
     }
     let mut chart = StripChart::new(period);
     let (mut height, mut drawn, mut heard, mut time) = (0, None::<Instant>, Instant::now(), 0.0);
-    while !interrupt.is_set() && given.seconds.is_none_or(|seconds| time < seconds) {
+    while !interrupt.is_set() && seconds.is_none_or(|seconds| time < seconds) {
         session.receive(PAUSE)?;
         while let Some(report) = session.take_tick() {
             heard = Instant::now();

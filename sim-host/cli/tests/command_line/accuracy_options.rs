@@ -138,6 +138,8 @@ fn levels_that_make_no_sense_are_refused() {
         (&["accuracy", &scene, "--smallest-step", "1"], "must be a number from 3e-5 to 0.1"),
         (&["record", "r.csv", "--slenderness-deg", "90"], "must be a number above 0 and below 90"),
         (&["record", "r.csv", "--dt", "one"], "must be a number from 1e-5 to 1"),
+        (&["board", "watch", "--qemu", "--seconds", "-1"], "must be a number above 0"),
+        (&["board", "watch", "--qemu", "--seconds", "nan"], "must be a number above 0"),
         (&["design", &scene, "--margin", "much"], "must be a number"),
     ] {
         let output = sprag(arguments);
