@@ -424,6 +424,7 @@ fn watch(session: &mut Talk, seconds: Option<f64>, out: &mut impl Write, interru
         writeln!(out, "time_s,rotation_rad,velocity_rad_s,engage_first,engage_second,state,fault_code")?;
     }
     let mut chart = StripChart::new(period);
+    session.take_started();
     let (mut height, mut drawn, mut heard, mut time) = (0, None::<Instant>, Instant::now(), 0.0);
     while !interrupt.is_set() && seconds.is_none_or(|seconds| time < seconds) {
         session.receive(PAUSE)?;
@@ -437,6 +438,9 @@ fn watch(session: &mut Talk, seconds: Option<f64>, out: &mut impl Write, interru
                 let (rotation, velocity, phase) = (estimate.rotation, estimate.velocity, decision.phase);
                 writeln!(out, "{time},{rotation},{velocity},{first},{second},{phase:?},{fault}")?;
             }
+        }
+        if let Some(started) = session.take_started() {
+            return Err(anyhow!("the device has started anew ({:?}), and reports no more", started.cause));
         }
         if heard.elapsed() > SILENCE {
             return Err(DeviceError::Silent(" any more".to_owned()).into());
@@ -467,6 +471,60 @@ fn redraw(picture: &str, height: usize, out: &mut impl Write) -> std::io::Result
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sprag_shared::device::beginning::Beginning;
+    use sprag_shared::device::{Answer, Device, Surroundings};
+    use sprag_shared::link::reset_cause::Cause;
+    use sprag_shared::link::{Deframer, MAX_FRAME, Pace, Reply, Started, encode};
+
+    /// A device that starts anew as soon as it is to report.
+    struct Restarting {
+        device: Device,
+        deframer: Deframer,
+        said: Vec<u8>,
+    }
+
+    impl Restarting {
+        fn say(&mut self, tag: u8, reply: &Reply) {
+            let mut frame = [0; MAX_FRAME];
+            let length = encode(tag, reply, &mut frame).unwrap();
+            self.said.extend(&frame[..length]);
+        }
+    }
+
+    impl Line for Restarting {
+        fn send(&mut self, bytes: &[u8]) -> Result<(), DeviceError> {
+            for &byte in bytes {
+                let Some(Ok(received)) = self.deframer.feed::<Request>(byte) else { continue };
+                if let Answer::Reply(reply) = self.device.answer(&received.message, &Surroundings::default()) {
+                    self.say(received.tag, &reply);
+                }
+                if matches!(received.message, Request::Stream { every: 1.. }) {
+                    let (cause, file) = (Cause::Watchdog, [0; 32]);
+                    let started = Started { cause, resumed: false, stored: true, restarts: 1, length: 0, place: 0, file };
+                    self.say(0, &Reply::Started(started));
+                }
+            }
+            Ok(())
+        }
+
+        fn receive(&mut self, _patience: Duration) -> Result<Vec<u8>, DeviceError> {
+            // Byte by byte, as of a slow line.
+            Ok(if self.said.is_empty() { Vec::new() } else { vec![self.said.remove(0)] })
+        }
+
+        fn pace(&self) -> Pace {
+            Pace::Sample
+        }
+    }
+
+    /// Nobody has asked it to report since.
+    #[test]
+    fn a_device_that_starts_anew_while_it_is_watched_does_answer() {
+        let device = Device::new(&Beginning::of(Some(&Settings::default()), None, 0.0).unwrap(), None);
+        let line: Box<dyn Line> = Box::new(Restarting { device, deframer: Deframer::new(), said: Vec::new() });
+        let ended = watch(&mut Session::new(line), None, &mut Vec::new(), &Interrupt::default()).unwrap_err();
+        assert_eq!(ended.to_string(), "the device has started anew (Watchdog), and reports no more");
+    }
 
     #[test]
     fn what_only_a_start_ends_is_not_waited_for_at_rest() {
