@@ -55,7 +55,11 @@ impl<S: Real, T: Copy> Fall<S, T> {
 
     /// Keeps what there was where it [`Fall::passed`].
     pub fn keep(&mut self, found: Option<T>) {
-        self.found = found;
+        // Below α, where there is nothing to keep, without a copy.
+        match found {
+            None => self.found = None,
+            found => self.found = found,
+        }
     }
 
     /// Looks whether the block overturns.
