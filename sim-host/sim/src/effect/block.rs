@@ -61,10 +61,10 @@ pub const FOUNDATION: Effect = Effect {
     name: "foundation",
     summary: "a spring and a dashpot under each toe: the base gives, a toe lifts as its foot's force ends, and nothing hits",
     equation: &[
-        "ÿ = φ₁ + φ₂ − (g + v̈_g)/R;  feet in contact (cᵢ > 0) push only: φᵢ = (k cᵢ + c ċᵢ)/m > 0,  c₁ = cos δ − cos α − y,  c₂ = c₁ − 2 sin α sin|θ|",
+        "ÿ = φ₁ + φ₂ − (g + v̈_g)/R;  feet push only: φᵢ = (k cᵢ + c ċᵢ)/m > 0,  c₁ = cos δ − cos α − y,  c₂ = c₁ − 2 sin α sin|θ|",
         "(λ − 1 + (1 + nσ) cos²δ) θ̈ + s (1 + nσ) sin δ cos δ θ̇² = −ü_g cos δ/R − s φ₁ sin δ − s φ₂ (sin δ − 2 sin α cos θ)",
         "2k/m = (2π f_v)²,  2c/m = 2 ζ (2π f_v);  lengths over R; the toe about which it turns does not slide",
-        "n: flywheels engaged;  the paper's kinematics leave nσ out of the θ̇² term",
+        "φᵢ in contact, cᵢ > 0;  n: flywheels engaged;  the paper's kinematics leave nσ out of the θ̇² term",
     ],
     source: "two-spring foundation of Psycharis and Jennings 1983; full geometry by Lagrange's equations, derived here",
     keys: &["block.foundation"],
