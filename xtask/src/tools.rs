@@ -129,10 +129,11 @@ pub fn python_of(root: &Path, place: &str, requirements: &str, options: &[&str])
     Ok(python)
 }
 
-/// The command that installs packages into the environment of `python`. Of their modules few are imported, and those compiled then.
+/// The command that installs packages into the environment of `python`. Their modules are compiled: where Python may write none, each process
+/// would do so anew.
 pub fn pip_install(python: &Path) -> Command {
     let mut install = Command::new(python);
-    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile"]);
+    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
     install
 }
 
