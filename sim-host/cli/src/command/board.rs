@@ -1,6 +1,6 @@
 //! `sprag board`: talk to a device.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -14,19 +14,18 @@ use sprag_shared::control::supervisor::Phase;
 use sprag_shared::link::Request;
 use sprag_shared::settings::{Item, Settings};
 use sprag_sim::interrupt::Interrupt;
-use sprag_sim::keys::bounds::Bounds;
 
 use super::board_line::{Connected, LineArguments, connect};
 use super::board_record::{self, RecordArguments};
+use super::board_watch::{self, WatchArguments};
 use super::context::{Completion, Context, Interrupted, Run, write_json};
 use super::loop_scene;
 use super::out_arguments::OverwriteArguments;
 use super::record_arguments::SceneRecordArguments;
 use crate::board::event_table::{LogRow, log_rows, rows, table, what};
 use crate::board::info::{DeviceInfo, phase_text};
-use crate::board::line::{DeviceError, Line};
+use crate::board::line::Line;
 use crate::board::session::Session;
-use crate::board::strip_chart::StripChart;
 use crate::board::{parameters, setting_text};
 
 /// Talk to a board: settings, self-test, logs, recordings.
@@ -153,15 +152,6 @@ struct LogArguments {
     replace: OverwriteArguments,
 }
 
-#[derive(Args, Clone, Debug)]
-struct WatchArguments {
-    #[command(flatten)]
-    line: LineArguments,
-    /// End after this time of the device.
-    #[arg(long, value_name = "N", value_parser = super::number(Bounds { low: Some((0.0, false)), high: None }))]
-    seconds: Option<f64>,
-}
-
 pub(super) type Talk = Session<Box<dyn Line>>;
 
 impl Run for BoardArguments {
@@ -180,9 +170,7 @@ impl Run for BoardArguments {
             DeviceCommand::Clear(info) => with_device(&info.line, out, clear),
             DeviceCommand::Protect(info) => with_device(&info.line, out, protect),
             DeviceCommand::Detach(info) => with_device(&info.line, out, detach),
-            DeviceCommand::Watch(given) => {
-                with_device(&given.line, out, |session, out| watch(session, given.seconds, out, interrupt))
-            }
+            DeviceCommand::Watch(given) => board_watch::run(given, out, interrupt),
         };
         match ended {
             // Reported where standard output is.
@@ -304,7 +292,7 @@ fn of_scene(path: &Path, context: &mut Context<'_>) -> anyhow::Result<Settings> 
 }
 
 /// For how long the outcome of a request is waited for between two questions.
-const PAUSE: Duration = Duration::from_millis(50);
+pub(super) const PAUSE: Duration = Duration::from_millis(50);
 
 fn self_test(session: &mut Talk, json: bool, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
     let settings = parameters::read(session)?;
@@ -409,122 +397,9 @@ fn stays(fault: Fault) -> String {
     format!("it stays in Fault: {fault}{end}")
 }
 
-/// Time between two reports that are drawn and two that are printed, s, and between two pictures.
-const FINE: f32 = 0.01;
-const REDRAW: Duration = Duration::from_millis(200);
-/// A device that reports nothing for so long has gone.
-const SILENCE: Duration = Duration::from_secs(5);
-
-fn watch(session: &mut Talk, seconds: Option<f64>, out: &mut impl Write, interrupt: &Interrupt) -> anyhow::Result<()> {
-    let period = parameters::read(session)?.period();
-    let every = (FINE / period).round().clamp(1.0, f32::from(u16::MAX)) as u16;
-    session.order(&Request::Stream { every })?;
-    let terminal = std::io::stdout().is_terminal();
-    if !terminal {
-        writeln!(out, "time_s,rotation_rad,velocity_rad_s,engage_first,engage_second,state,fault_code")?;
-    }
-    let mut chart = StripChart::new(period);
-    session.take_started();
-    let (mut height, mut drawn, mut heard, mut time) = (0, None::<Instant>, Instant::now(), 0.0);
-    while !interrupt.is_set() && seconds.is_none_or(|seconds| time < seconds) {
-        session.receive(PAUSE)?;
-        while let Some(report) = session.take_tick() {
-            heard = Instant::now();
-            time = chart.add(report);
-            if !terminal {
-                let decision = &report.decision;
-                let (estimate, [first, second]) = (&decision.estimate, decision.command.map(u8::from));
-                let fault = decision.fault.map_or(0, Fault::code);
-                let (rotation, velocity, phase) = (estimate.rotation, estimate.velocity, decision.phase);
-                writeln!(out, "{time},{rotation},{velocity},{first},{second},{phase:?},{fault}")?;
-            }
-        }
-        if let Some(started) = session.take_started() {
-            return Err(anyhow!("the device has started anew ({:?}), and reports no more", started.cause));
-        }
-        if heard.elapsed() > SILENCE {
-            return Err(DeviceError::Silent(" any more".to_owned()).into());
-        }
-        if terminal && drawn.is_none_or(|drawn| drawn.elapsed() >= REDRAW) {
-            drawn = Some(Instant::now());
-            height = redraw(&chart.draw(), height, out)?;
-        }
-    }
-    // Not answered, if it has gone meanwhile.
-    let _ = session.send(&Request::Stream { every: 0 });
-    let _ = session.receive(PAUSE);
-    if interrupt.is_set() { Err(Interrupted.into()) } else { Ok(()) }
-}
-
-/// Draws over a picture of so many lines; gives the lines of the new one.
-fn redraw(picture: &str, height: usize, out: &mut impl Write) -> std::io::Result<usize> {
-    if height > 0 {
-        write!(out, "\x1b[{height}A")?;
-    }
-    for line in picture.lines() {
-        writeln!(out, "{line}\x1b[K")?;
-    }
-    out.flush()?;
-    Ok(picture.lines().count())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use sprag_shared::device::beginning::Beginning;
-    use sprag_shared::device::{Answer, Device, Surroundings};
-    use sprag_shared::link::reset_cause::Cause;
-    use sprag_shared::link::{Deframer, MAX_FRAME, Pace, Reply, Started, encode};
-
-    /// A device that starts anew as soon as it is to report.
-    struct Restarting {
-        device: Device,
-        deframer: Deframer,
-        said: Vec<u8>,
-    }
-
-    impl Restarting {
-        fn say(&mut self, tag: u8, reply: &Reply) {
-            let mut frame = [0; MAX_FRAME];
-            let length = encode(tag, reply, &mut frame).unwrap();
-            self.said.extend(&frame[..length]);
-        }
-    }
-
-    impl Line for Restarting {
-        fn send(&mut self, bytes: &[u8]) -> Result<(), DeviceError> {
-            for &byte in bytes {
-                let Some(Ok(received)) = self.deframer.feed::<Request>(byte) else { continue };
-                if let Answer::Reply(reply) = self.device.answer(&received.message, &Surroundings::default()) {
-                    self.say(received.tag, &reply);
-                }
-                if matches!(received.message, Request::Stream { every: 1.. }) {
-                    let (cause, file) = (Cause::Watchdog, [0; 32]);
-                    let started = Started { cause, resumed: false, stored: true, restarts: 1, length: 0, place: 0, file };
-                    self.say(0, &Reply::Started(started));
-                }
-            }
-            Ok(())
-        }
-
-        fn receive(&mut self, _patience: Duration) -> Result<Vec<u8>, DeviceError> {
-            // Byte by byte, as of a slow line.
-            Ok(if self.said.is_empty() { Vec::new() } else { vec![self.said.remove(0)] })
-        }
-
-        fn pace(&self) -> Pace {
-            Pace::Sample
-        }
-    }
-
-    /// Nobody has asked it to report since.
-    #[test]
-    fn a_device_that_starts_anew_while_it_is_watched_does_answer() {
-        let device = Device::new(&Beginning::of(Some(&Settings::default()), None, 0.0).unwrap(), None);
-        let line: Box<dyn Line> = Box::new(Restarting { device, deframer: Deframer::new(), said: Vec::new() });
-        let ended = watch(&mut Session::new(line), None, &mut Vec::new(), &Interrupt::default()).unwrap_err();
-        assert_eq!(ended.to_string(), "the device has started anew (Watchdog), and reports no more");
-    }
 
     #[test]
     fn what_only_a_start_ends_is_not_waited_for_at_rest() {

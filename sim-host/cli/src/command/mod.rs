@@ -13,6 +13,8 @@ mod board_line;
 #[cfg(feature = "effects")]
 mod board_record;
 #[cfg(feature = "effects")]
+mod board_watch;
+#[cfg(feature = "effects")]
 pub(crate) mod closed_loop;
 pub(crate) mod cloud;
 pub(crate) mod completions;
