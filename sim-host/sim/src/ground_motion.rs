@@ -144,60 +144,66 @@ impl GroundMotion {
     }
 
     /// The smallest ü_g/g, to 1e-9 of the largest or of 1, and when (s); 0 at time 0 for a motion without segments.
-    ///
-    /// The curvature bounds how far a piece can dip between two instants, so nothing falls between samples.
     pub fn lowest(&self) -> (f64, f64) {
-        let mut lowest = (f64::INFINITY, 0.0);
+        let mut highest = (f64::NEG_INFINITY, 0.0);
         for segment in &self.segments {
-            let (first, last) = (segment.shape.acceleration(0.0), segment.shape.acceleration(segment.duration));
-            for (value, time) in [(first, 0.0), (last, segment.duration)] {
-                if value < lowest.0 {
-                    lowest = (value, segment.start + time);
-                }
-            }
-            let mut spans = vec![(0.0, first, segment.duration, last)];
             let (curvature, tolerance) = (segment.shape.curvature_bound(), 1e-9 * segment.bound.max(1.0));
-            while let Some((from, first, to, last)) = spans.pop() {
-                let dip = curvature * (to - from) * (to - from) / 8.0;
-                let middle = 0.5 * (from + to);
-                if first.min(last) - dip >= lowest.0 - tolerance || middle <= from || middle >= to {
-                    continue;
-                }
-                let value = segment.shape.acceleration(middle);
-                if value < lowest.0 {
-                    lowest = (value, segment.start + middle);
-                }
-                spans.extend([(middle, value, to, last), (from, first, middle, value)]);
-            }
+            let may_rise = |highest: f64, ends: [f64; 2], length: f64| {
+                ends[0].max(ends[1]) + curvature * length * length / 8.0 > highest + tolerance
+            };
+            segment.search(&mut highest, |time| -segment.shape.acceleration(time), |value| value, may_rise);
         }
-        if lowest.0.is_finite() { lowest } else { (0.0, 0.0) }
+        if highest.0.is_finite() { (-highest.0, highest.1) } else { (0.0, 0.0) }
     }
 
     /// Largest |ü_g/g|/(1 + v̈_g/g), to 1e-9, above a `vertical` motion with the same segments under which the block keeps some weight.
     pub fn steepest(&self, vertical: Option<&GroundMotion>) -> f64 {
-        let mut steepest = 0.0_f64;
-        for (index, Segment { shape: level, duration, .. }) in self.segments.iter().enumerate() {
+        let mut steepest = (0.0, 0.0);
+        for (index, segment) in self.segments.iter().enumerate() {
+            let level = &segment.shape;
             let up =
                 vertical.and_then(|vertical| vertical.segments.get(index)).map_or(&SumSegment::QUIET, |segment| &segment.shape);
-            let at = |time: f64| (level.acceleration(time).abs(), 1.0 + up.acceleration(time));
-            let (first, last) = (at(0.0), at(*duration));
-            steepest = steepest.max(first.0 / first.1).max(last.0 / last.1);
-            let mut spans = vec![(0.0, first, *duration, last)];
-            while let Some((from, first, to, last)) = spans.pop() {
-                // What lies between two instants is no further from the chord than this times the curvature.
-                let apart = (to - from) * (to - from) / 8.0;
-                let push = first.0.max(last.0) + level.curvature_bound() * apart;
-                let weight = first.1.min(last.1) - up.curvature_bound() * apart;
-                let middle = 0.5 * (from + to);
-                if push <= (steepest + 1e-9) * weight || middle <= from || middle >= to {
-                    continue;
-                }
-                let value = at(middle);
-                steepest = steepest.max(value.0 / value.1);
-                spans.extend([(middle, value, to, last), (from, first, middle, value)]);
-            }
+            let at = |time: f64| [level.acceleration(time).abs(), 1.0 + up.acceleration(time)];
+            let may_steepen = |steepest: f64, [first, last]: [[f64; 2]; 2], length: f64| {
+                let apart = length * length / 8.0;
+                let push = first[0].max(last[0]) + level.curvature_bound() * apart;
+                let weight = first[1].min(last[1]) - up.curvature_bound() * apart;
+                push > (steepest + 1e-9) * weight
+            };
+            segment.search(&mut steepest, at, |[push, weight]| push / weight, may_steepen);
         }
-        steepest
+        steepest.0
+    }
+}
+
+impl Segment {
+    /// Raises `most`, a value and its time (s), to the largest `value` of what is seen `at` any time of this segment, s from its start. A span
+    /// of this length (s) is halved as long as what is seen at its ends says that it `may` hold more: between them nothing is further from the
+    /// chord than the bound of its curvature times an eighth of the length squared, so that nothing falls between samples.
+    fn search<V: Copy>(
+        &self,
+        most: &mut (f64, f64),
+        at: impl Fn(f64) -> V,
+        value: impl Fn(V) -> f64,
+        may: impl Fn(f64, [V; 2], f64) -> bool,
+    ) {
+        let look = |most: &mut (f64, f64), time: f64| {
+            let seen = at(time);
+            if value(seen) > most.0 {
+                *most = (value(seen), self.start + time);
+            }
+            seen
+        };
+        let (first, last) = (look(most, 0.0), look(most, self.duration));
+        let mut spans = vec![(0.0, first, self.duration, last)];
+        while let Some((from, first, to, last)) = spans.pop() {
+            let middle = 0.5 * (from + to);
+            if !may(most.0, [first, last], to - from) || middle <= from || middle >= to {
+                continue;
+            }
+            let seen = look(most, middle);
+            spans.extend([(middle, seen, to, last), (from, first, middle, seen)]);
+        }
     }
 }
 
