@@ -96,6 +96,19 @@ impl Settings {
     /// # Errors
     /// [`SettingError`] for a number that no setting can be, or a controller whose parts contradict each other.
     pub fn of(controller: &Controller, supervision: &Parameters) -> Result<Settings, SettingError> {
+        let settings = Settings::written(controller, supervision)?;
+        if Controller::of(&settings)? == *controller && Parameters::read(&settings) == *supervision {
+            Ok(settings)
+        } else {
+            Err(SettingError::NotRepresentable)
+        }
+    }
+
+    /// The settings of `controller` as by [`Settings::of`], whether or not they contradict each other.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a number that no setting can be.
+    pub fn written(controller: &Controller, supervision: &Parameters) -> Result<Settings, SettingError> {
         let mut draft = Draft::new();
         // Taken apart whole: a field that is forgotten does not compile.
         let Controller { model, instruments, estimator, law, horizons, bands, engaged_at_rest, gate, lag, supervisor: _ } =
@@ -111,11 +124,6 @@ impl Settings {
         Item::Bands.put(bands, &mut draft);
         lag.put(&mut draft);
         Item::EngagedAtRest.put(engaged_at_rest, &mut draft);
-        let settings = Settings::from_words(&draft.words)?;
-        if Controller::of(&settings)? == *controller && Parameters::read(&settings) == *supervision {
-            Ok(settings)
-        } else {
-            Err(SettingError::NotRepresentable)
-        }
+        Settings::from_words(&draft.words)
     }
 }

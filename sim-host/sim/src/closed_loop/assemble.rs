@@ -2,10 +2,6 @@
 
 use sprag_shared::control::clutch_position::ClutchLag;
 use sprag_shared::control::controller::{Controller, Horizons};
-use sprag_shared::control::estimation::Estimator;
-use sprag_shared::control::estimation::complementary::Complementary;
-use sprag_shared::control::estimation::kalman::Kalman;
-use sprag_shared::control::estimation::model_aided::ModelAided;
 use sprag_shared::control::law::any_law::ClutchLaw;
 use sprag_shared::control::law::costate::Costate;
 use sprag_shared::control::law::look_ahead::LookAhead;
@@ -233,7 +229,8 @@ impl<'a> LoopTask<'a> {
     /// As [`LoopTask::controller`], and for what a board's settings cannot be.
     pub fn settings(&self) -> Result<Settings, ParameterError> {
         let (controller, supervision) = self.supervised(self.controller.clutch_law())?;
-        Settings::of(&controller, &supervision).map_err(|error| unfit(error, &controller.estimator))
+        let written = Settings::written(&controller, &supervision).unwrap_or_default();
+        Settings::of(&controller, &supervision).map_err(|error| unfit(error, &written))
     }
 
     /// The controller by the law of its table, at power-on.
@@ -331,29 +328,23 @@ impl<'a> LoopTask<'a> {
     }
 }
 
-/// A setting that a board refuses, as the parameter that it was made from.
-fn unfit(error: SettingError, estimator: &Estimator) -> ParameterError {
-    let name = |index| Description::at(index).map_or("settings", |description| description.name);
-    match error {
-        SettingError::OutOfRange { index, word } => {
-            let real = Description::at(index).is_some_and(|description| description.kind == Kind::Real);
-            let value = if real { f32::from_bits(word).into() } else { word.into() };
-            ParameterError { parameter: name(index), value, range: "within what a board's settings allow" }
-        }
-        SettingError::Contradiction { index, .. } if index == Item::RotationByEncoder.index() => {
-            let gain = match estimator {
-                Estimator::ModelAided(ModelAided { gains: [[gain, _], _], .. }) => gain,
-                Estimator::Kalman(Kalman { gains: [[gain, ..], ..], .. }) => gain,
-                Estimator::Complementary(Complementary { gains: [gain, _], .. }) => gain,
-            };
-            let range = "such that with the other gains an estimator's errors die out, or a board refuses them";
-            ParameterError { parameter: name(index), value: (*gain).into(), range }
-        }
+/// A setting that a board refuses, as the parameter that it was made from; `settings` are those that contradict themselves.
+fn unfit(error: SettingError, settings: &Settings) -> ParameterError {
+    let (index, word, range) = match error {
+        SettingError::OutOfRange { index, word } => (Some(index), Some(word), "within what a board's settings allow"),
         SettingError::Contradiction { index, .. } => {
-            ParameterError { parameter: name(index), value: f64::NAN, range: "as its companion among a board's settings allows" }
+            let range = if index == Item::RotationByEncoder.index() {
+                "such that with the other gains an estimator's errors die out, or a board refuses them"
+            } else {
+                "as its companion among a board's settings allows"
+            };
+            (Some(index), settings.get(index), range)
         }
         SettingError::NoSuch { .. } | SettingError::NotRepresentable => {
-            ParameterError { parameter: "settings", value: f64::NAN, range: "such that they make the same controller again" }
+            (None, None, "such that they make the same controller again")
         }
-    }
+    };
+    let setting = index.and_then(Description::at);
+    let number = |word| if setting.is_some_and(|it| it.kind == Kind::Real) { f32::from_bits(word).into() } else { word.into() };
+    ParameterError { parameter: setting.map_or("settings", |it| it.name), value: word.map_or(f64::NAN, number), range }
 }
