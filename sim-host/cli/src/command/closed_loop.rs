@@ -81,8 +81,10 @@ impl Run for LoopArguments {
         };
         let of_loop = |report: &LoopReport| report.summary.warning(&desk.scene.origin, desk.controller.prelude_s);
         let of_loops = reports.iter().filter_map(of_loop);
+        let of_controllers =
+            desk.pairs.iter().filter_map(|&index| desk.task(index, desk.controller.sensors.seed(), interrupt).warning());
         let of_scene = desk.scene.warnings().into_iter().chain(warning_lines(&desk.ground.records));
-        let warnings = context.warned(of_scene.chain(of_loops));
+        let warnings = context.warned(of_scene.chain(of_controllers).chain(of_loops));
         let mut report = Report::new("loop", &folder, &self.output)?;
         if let Some(count) = self.monte_carlo {
             let [switches, chatter, faults] = ["switches", "chatter", "faults"].map(Column::count);

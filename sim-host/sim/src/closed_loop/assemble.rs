@@ -9,6 +9,7 @@ use sprag_shared::control::law::minimum_dwell::Gate;
 use sprag_shared::control::law::{GatedTable, Law, SignTable};
 use sprag_shared::control::model::Model;
 use sprag_shared::control::supervisor::{Parameters, Supervisor};
+use sprag_shared::control::ticks::ticks;
 use sprag_shared::drivetrain::under_way::MOST_UNDER_WAY;
 use sprag_shared::motion::hybrid::HybridSystem;
 use sprag_shared::settings::kind::{Description, Kind};
@@ -216,7 +217,7 @@ impl<'a> LoopTask<'a> {
             horizons: self.horizons(period),
             bands: table.hysteresis as f32,
             engaged_at_rest: table.engaged_at_rest,
-            gate: Gate { dwell: (table.dwell_s / period).round() as u16 },
+            gate: Gate { dwell: ticks(table.dwell_s as f32, period as f32).min(u16::MAX.into()) as u16 },
             lag: self.lag(),
             supervisor: Supervisor::new(&supervision)?,
         };
@@ -231,6 +232,12 @@ impl<'a> LoopTask<'a> {
         let (controller, supervision) = self.supervised(self.controller.clutch_law())?;
         let written = Settings::written(&controller, &supervision).unwrap_or_default();
         Settings::of(&controller, &supervision).map_err(|error| unfit(error, &written))
+    }
+
+    /// What a board refuses of the controller, as [`Scene::warnings`] have it.
+    pub fn warning(&self) -> Option<String> {
+        let Scene { origin, devices, .. } = self.scene;
+        self.settings().err().map(|error| format!("{origin}: the controller of {}: {error}", devices[self.index].name))
     }
 
     /// The controller by the law of its table, at power-on.

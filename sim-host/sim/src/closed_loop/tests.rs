@@ -393,3 +393,14 @@ fn plates_that_slip_behind_a_standing_block_are_looked_at() {
     let rocking = 0.1 * f64::from(CLOSED) * PERIOD / 2.0;
     assert!((largest / (2.0 * rocking) - 1.0).abs() < 0.02, "{largest} and {rocking}");
 }
+
+/// Ticks of 0.5 ms.
+#[test]
+fn a_dwell_is_no_shorter_than_asked_for() {
+    let mut desk = scene(RIGID, SINE);
+    for (seconds, least) in [(0.0, 0), (1e-4, 1), (5e-4, 1), (7e-4, 2), (3e-3, 6), (1.0, 2000)] {
+        desk.controller.dwell_s = seconds;
+        let controller = desk.task(0, 1, &Interrupt::default()).controller(desk.controller.clutch_law()).unwrap();
+        assert_eq!(controller.gate.dwell, least, "{seconds}");
+    }
+}

@@ -181,9 +181,13 @@ fn gains_that_a_board_refuses_are_named_with_their_values() {
     let sensors = "suite = 'mpu-6050', gyroscope = { noise_density_deg_s_rthz = 0, resolution_deg_s = 0 }";
     let controller = format!("estimator = 'kalman'\n sensors = {{ {sensors} }}");
     let desk = desk_of("slenderness_deg = 12.0", "engagement = 'rigid'", "amplitude_g = 0.4, frequency_hz = 1.3", &controller);
-    let error = desk.task(0, 1, &Interrupt::default()).settings().unwrap_err();
+    let (interrupt, sound) = (Interrupt::default(), self::desk(""));
+    let error = desk.task(0, 1, &interrupt).settings().unwrap_err();
     assert_eq!(error.parameter, "estimator.rotation_by_encoder");
     assert!(error.value.is_finite(), "{error}");
+    let warning = desk.task(0, 1, &interrupt).warning().unwrap();
+    assert!(warning.starts_with("scene: the controller of ") && warning.contains(&error.to_string()), "{warning}");
+    assert_eq!(sound.task(0, 1, &interrupt).warning(), None);
 }
 
 #[test]
