@@ -5,7 +5,7 @@
 //! - Devices and pipes are written through, as every program does.
 //! - An input of a command is never its output.
 //! - Results are replaced only by those of the same command and the same input ([`Subject`]: scene or study as resolved, options that change
-//!   results, contents of the files that are read), and else where `--overwrite` asks for it. [`ResultFolder`] finds out by `summary.json`,
+//!   results, contents of the files that are read), and else where `--overwrite` asks for it, then all of them. [`ResultFolder`] finds out by `summary.json`,
 //!   [`claim_file`] by the file itself. A file that Sprag did not write is another's.
 
 use std::io::{self, BufWriter, Write};
@@ -61,7 +61,8 @@ impl OutputError {
 /// Files of one command that appear together, once all of them are written.
 #[derive(Debug, Default)]
 pub struct Results {
-    files: Vec<Written>,
+    /// With the places that were asked for.
+    files: Vec<(PathBuf, Written)>,
     /// Files of the results before that would contradict these.
     obsolete: Vec<PathBuf>,
     notes: Vec<String>,
@@ -96,7 +97,7 @@ impl Results {
         writer.flush().map_err(failed)?;
         drop(writer);
         written.seal().map_err(failed)?;
-        self.files.push(written);
+        self.files.push((path.to_owned(), written));
         Ok(())
     }
 
@@ -111,7 +112,8 @@ impl Results {
         })
     }
 
-    /// Removes the file at `path`, if there is one, when the others are put in their places: it would contradict them.
+    /// Removes the file at `path`, if there is one and it is not written anew, when the others are put in their places: it would contradict
+    /// them.
     pub fn remove(&mut self, path: PathBuf) {
         self.obsolete.push(path);
     }
@@ -121,13 +123,13 @@ impl Results {
     /// # Errors
     /// [`OutputError`] when a file cannot be renamed.
     pub fn commit(self) -> Result<(), OutputError> {
-        for path in self.obsolete {
+        for path in self.obsolete.into_iter().filter(|path| self.files.iter().all(|(written, _)| written != path)) {
             match std::fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(OutputError::new(&path, &error)),
                 _ => {}
             }
         }
-        self.files.into_iter().try_for_each(Written::commit)
+        self.files.into_iter().try_for_each(|(_, written)| written.commit())
     }
 
     /// Puts every file in its place, and writes to `err` what the reader of the files should know, in a line each.

@@ -208,10 +208,12 @@ impl Report {
     ///
     /// # Errors
     /// An interrupt, rows that are not as they were written, results of another run that have come there meanwhile, and [`OutputError`].
-    pub fn finish(self, folder: &ResultFolder, context: &mut Context<'_>) -> anyhow::Result<Completion> {
+    pub fn finish(mut self, folder: &ResultFolder, context: &mut Context<'_>) -> anyhow::Result<Completion> {
         context.check_interrupt()?;
         folder.check_again()?;
-        self.rows.map_or(Ok(()), |rows| rows.finish().map(drop))?;
+        let rows = self.rows.map(Rows::finish).transpose()?;
+        let replaced = folder.replaced().iter().filter(|path| rows.as_ref() != Some(path));
+        replaced.for_each(|path| self.results.remove(path.clone()));
         self.results.commit_with_notes(&mut context.err)?;
         drop(self.drawing);
         let text = format!("{}results written to {}\n", self.text, self.folder.display());

@@ -55,6 +55,12 @@ impl Claim<'_> {
     }
 }
 
+/// The page at `path` and its command, if it is a result of Sprag.
+fn page_at(path: &Path) -> Option<(String, Value)> {
+    let page: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    Some((page.get("command")?.as_str()?.to_owned(), page))
+}
+
 /// A folder for results. What it made itself is removed with it where it is still empty: a command that fails leaves no empty folder.
 #[derive(Debug)]
 pub struct ResultFolder {
@@ -63,13 +69,15 @@ pub struct ResultFolder {
     any_accuracy: bool,
     /// What it was opened for, and the result that says so.
     opened: Option<(Subject, PathBuf)>,
+    /// Results of another run of the command, which are to be overwritten.
+    replaced: Vec<PathBuf>,
     made: Vec<PathBuf>,
 }
 
 impl ResultFolder {
     /// The folder at `path`, which need not be there; whether results of other commands and inputs in it may be overwritten.
     pub fn new(path: PathBuf, overwrite: bool) -> ResultFolder {
-        ResultFolder { path, overwrite, any_accuracy: false, opened: None, made: Vec::new() }
+        ResultFolder { path, overwrite, any_accuracy: false, opened: None, replaced: Vec::new(), made: Vec::new() }
     }
 
     /// Whether results of another accuracy are of the same subject: where a time budget chooses it.
@@ -88,7 +96,7 @@ impl ResultFolder {
         if self.opened.is_some() {
             return Ok(());
         }
-        self.check(claim)?;
+        self.replaced = self.check(claim)?;
         self.make("")?;
         self.opened = Some((claim.subject.clone(), self.path.join(claim.page)));
         Ok(())
@@ -105,7 +113,14 @@ impl ResultFolder {
         }
     }
 
-    fn check(&self, claim: &Claim<'_>) -> Result<(), OutputError> {
+    /// Files of another run of the command that are to be overwritten, whether or not they are written anew: a picture of one scene beside the
+    /// summary of another would mislead.
+    pub fn replaced(&self) -> &[PathBuf] {
+        &self.replaced
+    }
+
+    /// Those of [`ResultFolder::replaced`].
+    fn check(&self, claim: &Claim<'_>) -> Result<Vec<PathBuf>, OutputError> {
         // A folder that is not there has nothing to lose; one that cannot be read is refused when it is written.
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut names: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
@@ -118,7 +133,16 @@ impl ResultFolder {
             }
         }
         if self.overwrite {
-            return Ok(());
+            let page = page_at(&self.path.join(claim.page));
+            let replaced = page.is_some_and(|(command, page)| {
+                command == claim.subject.command && claim.subject.difference(&page, self.any_accuracy).is_some()
+            });
+            // Rows and their ledger are replaced by whoever makes rows.
+            let of_rows = |name: &str| {
+                claim.is_ledger(name) || name.strip_suffix(".csv").is_some_and(|stem| names.contains(&format!("{stem}.run.json")))
+            };
+            let results = names.iter().filter(|name| replaced && *name != claim.page && !of_rows(name));
+            return Ok(results.map(|name| self.path.join(name)).filter(|path| path.is_file()).collect());
         }
         let mut known = false;
         for name in names.iter().filter(|name| *name == claim.page || claim.is_ledger(name)) {
@@ -130,7 +154,7 @@ impl ResultFolder {
                 let reason = format!("{name} is there, and no {} says what it is of; {REPLACE}", claim.page);
                 Err(OutputError { path: self.path.clone(), reason })
             }
-            _ => Ok(()),
+            _ => Ok(Vec::new()),
         }
     }
 
@@ -143,14 +167,13 @@ impl ResultFolder {
     /// What the results of the page at `path` are of, if not of `subject`.
     fn other(&self, subject: &Subject, path: &Path) -> Option<String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let page: Option<Value> = fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
-        let Some((page, command)) = page.as_ref().and_then(|page| Some((page, page.get("command")?.as_str()?))) else {
+        let Some((command, page)) = page_at(path) else {
             return Some(format!("its {name} is no result of sprag"));
         };
         if command != subject.command {
             return Some(format!("it holds results of `sprag {command}`"));
         }
-        let what = subject.difference(page, self.any_accuracy)?;
+        let what = subject.difference(&page, self.any_accuracy)?;
         Some(format!("it holds results of another run of `sprag {command}`: {what} differs"))
     }
 

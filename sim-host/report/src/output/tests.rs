@@ -173,6 +173,39 @@ fn results_are_replaced_by_their_like_or_when_asked() {
 }
 
 #[test]
+fn of_a_run_that_is_overwritten_no_result_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    let (before, now) = (claim("map", &json!(1)), claim("map", &json!(2)));
+    let ours = [
+        "loop-2.svg",
+        "loop.png",
+        "map-1-of-2.csv",
+        "map-1-of-2.run.json",
+        "map-1-of-2.svg",
+        "map.csv",
+        "notes.md",
+        "summary.json",
+    ];
+    let overwrite = |claim: &Claim<'_>| {
+        ours.iter().for_each(|name| fs::write(folder.path().join(name), "").unwrap());
+        fs::write(folder.path().join("summary.json"), serde_json::to_string(&before.subject).unwrap()).unwrap();
+        let mut opened = ResultFolder::new(folder.path().to_owned(), true);
+        opened.open(claim).unwrap();
+        let mut results = Results::default();
+        results.add(&opened.join("map.csv"), |file| file.write_all(b"new")).unwrap();
+        opened.replaced().iter().for_each(|path| results.remove(path.clone()));
+        results.commit().unwrap();
+        assert_eq!(fs::read(opened.join("map.csv")).unwrap(), b"new");
+        names(folder.path())
+    };
+    assert_eq!(overwrite(&now), ["map-1-of-2.csv", "map-1-of-2.run.json", "map.csv", "notes.md", "summary.json"]);
+    // Of the same input they are true.
+    assert_eq!(overwrite(&before), ours);
+    // Those of another command may be anybody's.
+    assert_eq!(overwrite(&claim("loop", &json!(1))), ours);
+}
+
+#[test]
 fn results_that_come_meanwhile_are_not_replaced_unasked() {
     let folder = tempfile::tempdir().unwrap();
     let (ours, other) = (claim("map", &json!(1)), claim("map", &json!(2)));
