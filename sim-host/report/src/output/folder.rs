@@ -142,7 +142,8 @@ impl ResultFolder {
                 claim.is_ledger(name) || name.strip_suffix(".csv").is_some_and(|stem| names.contains(&format!("{stem}.run.json")))
             };
             let results = names.iter().filter(|name| replaced && *name != claim.page && !of_rows(name));
-            return Ok(results.map(|name| self.path.join(name)).filter(|path| path.is_file()).collect());
+            let may_go = |path: &PathBuf| path.metadata().is_ok_and(|data| data.is_file() && !data.permissions().readonly());
+            return Ok(results.map(|name| self.path.join(name)).filter(may_go).collect());
         }
         let mut known = false;
         for name in names.iter().filter(|name| *name == claim.page || claim.is_ledger(name)) {

@@ -199,6 +199,11 @@ fn of_a_run_that_is_overwritten_no_result_stays() {
         names(folder.path())
     };
     assert_eq!(overwrite(&now), ["map-1-of-2.csv", "map-1-of-2.run.json", "map.csv", "notes.md", "summary.json"]);
+    // A read-only file is nobody's to replace.
+    fs::write(folder.path().join("loop-3.svg"), "").unwrap();
+    fs::set_permissions(folder.path().join("loop-3.svg"), Permissions::from_mode(0o444)).unwrap();
+    assert!(overwrite(&now).contains(&"loop-3.svg".to_owned()));
+    fs::remove_file(folder.path().join("loop-3.svg")).unwrap();
     // Of the same input they are true.
     assert_eq!(overwrite(&before), ours);
     // Those of another command may be anybody's.
