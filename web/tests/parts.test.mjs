@@ -65,6 +65,14 @@ test("an address gives its scene back, and refuses what was cut off, changed or 
   assert.equal(await pack("#".repeat(300_000)), null);
 });
 
+test("records are found in a scene by their whole names", async () => {
+  const { recordsOf } = await load("scene/open");
+  const names = ["plain.csv", "L'Aquila.csv", 'a "b".csv', "back\\slash.csv"];
+  const text = `[[ground]]\nfile = "plain.csv"\n[[ground]]\nfile="L'Aquila.csv"\n[[ground]]\nfile = 'a "b".csv'\n`;
+  assert.deepEqual(recordsOf(`${text}[[ground]]\nfile = "back\\\\slash.csv"\n`), names);
+  assert.deepEqual(recordsOf(`ground = [{ file = "a \\"b\\".csv" }, { file = 'back\\slash.csv' }]`), names.slice(2));
+});
+
 test("ground that is pushed and stopped ends where kinematics says", async () => {
   const { displacement } = await load("block/motion");
   // 2 m/s² for 1 s, −2 m/s² for 1 s, then rest: 2 m.

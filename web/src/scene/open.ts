@@ -68,7 +68,17 @@ async function read(store: Store, fragment: string): Promise<void> {
 
 /** The record files that a scene names. */
 export function recordsOf(text: string): string[] {
-  return Array.from(text.matchAll(/\bfile\s*=\s*["'](.+?)["']/g), ([, name]) => name ?? "");
+  const named = text.matchAll(/\bfile\s*=\s*(?:("(?:[^"\\\n]|\\.)+")|'([^'\n]+)')/g);
+  return Array.from(named, ([, basic, literal]) => literal ?? unquoted(basic ?? '""'));
+}
+
+/** A basic string of TOML; mostly it is one of JSON. */
+function unquoted(basic: string): string {
+  try {
+    return String(JSON.parse(basic));
+  } catch {
+    return basic.slice(1, -1);
+  }
 }
 
 /** Files of the user that a scene names. */
