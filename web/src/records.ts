@@ -27,9 +27,7 @@ export function recordControls(store: Store): HTMLElement {
     const timeStepS = Number(step.value);
     const options = { ...(units.select.value ? { units: units.select.value } : {}), ...(timeStepS > 0 ? { timeStepS } : {}) };
     try {
-      const about = await store.engine.record(file, options);
-      say(said, describe(about));
-      await shake(store, file, options);
+      say(said, describe(await store.engine.record(file, options)));
     } catch (problem) {
       const line = problem instanceof Error ? problem.message : String(problem);
       const asks = /units|time step/i.test(line);
@@ -38,7 +36,10 @@ export function recordControls(store: Store): HTMLElement {
       more.open ||= asks;
       store.fail(text);
       (/time step/i.test(line) ? step : units.select).focus({ preventScroll: !asks });
+      return;
     }
+    // What is wrong from here on is the scene.
+    await shake(store, file, options).catch((problem: unknown) => store.fail(problem));
   };
   const open = async (file: File) => {
     if (file.size > MOST_MB * 1e6) {

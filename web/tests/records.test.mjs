@@ -70,6 +70,17 @@ test("units are asked for where a record has none", async (t) => {
   await anotherDigest(page, before);
 });
 
+test("a record is not said to be unreadable where it is the scene that is broken", async (t) => {
+  const { page } = await opened(t);
+  const text = await toml(page).inputValue();
+  await toml(page).fill(text.replace("size_m", "sizes_m"));
+  await until("a line", async () => /sizes_m/.test(await alert(page).innerText()));
+  await alert(page).getByRole("button", { name: texts.page.dismiss }).click();
+  await drop(page, "own.csv", MOTION);
+  await until("the line again", async () => /^scene:\d+: block\.sizes_m/.test(await alert(page).innerText()));
+  assert.equal(await page.getByText(words.unreadable("own.csv", ""), { exact: false }).count(), 0);
+});
+
 for (const [what, name, content, line] of [
   ["a binary file", "picture.at2", Uint8Array.from({ length: 5000 }, (_, index) => (index * 7919) % 256), /picture\.at2/],
   ["an empty file", "empty.csv", "", /empty\.csv/],
