@@ -196,6 +196,19 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await keep(page, "cut");
 });
 
+test("an axis is moved beyond its end by its lower end first", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  const across = sections(page).map.getByRole("group", { name: words.axis.x });
+  await enter(across.getByLabel(words.from), "99");
+  await until("a line about the axis", () => page.getByText(words.wrongAxis).isVisible());
+  await enter(across.getByLabel(words.to), "100");
+  await until("both ends", async () =>
+    /from = 99\nkey = "ground.0.frequency_ratio"\n(scale = .*\n)?to = 100/.test(await toml(page).inputValue()),
+  );
+  assert.equal(await across.getByLabel(words.from).inputValue(), "99");
+});
+
 test("two axes that are changed at once are both changed", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.figure08);

@@ -75,7 +75,9 @@ class Fields {
     this.optional = which === "y";
     const change = (part: Partial<Axis>): void => {
       if (this.axis !== null) {
-        changed({ ...this.axis, ...part });
+        // What is refused stays in its box, and goes with the next change.
+        this.axis = { ...this.axis, ...part };
+        changed(this.axis);
       }
     };
     const key = choice(words.key, [], (name) => changed(suggest(name)));
