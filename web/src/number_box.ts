@@ -5,6 +5,8 @@ let boxes = 0;
 
 /** Numbers that are being typed. */
 const typed = new WeakSet<HTMLInputElement>();
+/** What `showNumber` was given last. */
+const shown = new WeakMap<HTMLInputElement, string>();
 
 /** From here on, what is typed into `input` is not replaced by `showNumber` before it is done. */
 export function keepTyped(input: HTMLInputElement): void {
@@ -13,6 +15,12 @@ export function keepTyped(input: HTMLInputElement): void {
   for (const done of ["blur", "change"]) {
     input.addEventListener(done, () => typed.delete(input));
   }
+  // Without a number that counts, the one before does.
+  input.addEventListener("blur", () => {
+    if (input.value === "") {
+      input.value = shown.get(input) ?? "";
+    }
+  });
 }
 
 /** A labelled number; `given` is called when it is changed, and says what is wrong with one that `usual` excludes. */
@@ -35,6 +43,7 @@ export function numberBox(label: string, usual: { min?: number; max?: number; wh
 
 /** Shows the number `text`, unless another one is being typed. */
 export function showNumber(input: HTMLInputElement, text: string): void {
+  shown.set(input, text);
   if (!typed.has(input)) {
     input.value = text;
   }

@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { downloaded, keep, open, texts, until } from "./browser.mjs";
 import { hold, holdable, isHeld, letGo } from "./hold.mjs";
 import { EXAMPLES, alert, anotherDigest, choose, enter, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { sections } from "./views.mjs";
 
 const words = texts.page;
 
@@ -25,6 +26,25 @@ test("every number of block and ground changes the run, and its first value brin
     await enter(typed, own);
     await thisDigest(page, first);
   }
+});
+
+test("a box that is left empty, or with what is no number, shows its number again", async (t) => {
+  const { page, first } = await opened(t);
+  const { map } = sections(page);
+  await until("a map", () => map.getByRole("application").count());
+  for (const box of [
+    page.getByRole("spinbutton", { name: words.controls.size, exact: true }),
+    map.getByLabel(texts.views.map.to).first(),
+  ]) {
+    const own = await box.inputValue();
+    for (const typed of ["", "1e"]) {
+      await box.fill("");
+      await box.pressSequentially(typed);
+      await box.press("Tab");
+      assert.equal(await box.inputValue(), own);
+    }
+  }
+  assert.equal(await shownDigest(page), first);
 });
 
 /** Tilts the block and lets it go. */
