@@ -271,6 +271,35 @@ test("a worker gets the records that a scene names, and no others", async () => 
   assert.deepEqual(source.records, [records[0], records[2]]);
 });
 
+test("workers that cannot be replaced are said, and tried again", async () => {
+  let isOffline = false;
+  const born = [];
+  globalThis.Worker = class extends EventTarget {
+    constructor() {
+      super();
+      born.push(this);
+      const data = { ready: { version: "", simd: true } };
+      const begun = isOffline ? Object.assign(new Event("error"), { message: "offline" }) : Object.assign(new Event("message"), { data });
+      setImmediate(() => this.dispatchEvent(begun));
+    }
+    postMessage({ task }) {
+      if (task) {
+        setImmediate(() => this.dispatchEvent(Object.assign(new Event("message"), { data: { result: task.call.name } })));
+      }
+    }
+    terminate() {}
+  };
+  const { Workers } = await load("pool/workers");
+  const workers = new Workers({}, 2);
+  await workers.ready;
+  isOffline = true;
+  born.slice().forEach((worker) => worker.dispatchEvent(Object.assign(new Event("error"), { message: "out of memory" })));
+  await assert.rejects(workers.run({ name: "faults" }, null), /offline/);
+  await assert.rejects(workers.run({ name: "faults" }, null), /offline/);
+  isOffline = false;
+  assert.equal(await workers.run({ name: "faults" }, null), "faults");
+});
+
 test("values are written as TOML in one line", async () => {
   const { inline } = await load("controls/draft");
   assert.equal(

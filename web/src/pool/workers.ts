@@ -78,6 +78,9 @@ export class Workers {
         reject(signal.reason);
       });
       this.waiting[urgency].push(job);
+      if (this.members.length === 0) {
+        this.hire();
+      }
       this.assign();
     });
   }
@@ -122,7 +125,10 @@ export class Workers {
     if (!member.isReady) {
       const problem = new Error(`the core does not start: ${why}`);
       this.hasFailed(problem);
-      job?.reject(problem);
+      if (this.members.length === 0) {
+        // Nobody is left to do what waits.
+        Object.values(this.waiting).forEach((jobs) => jobs.splice(0).forEach((job) => job.reject(problem)));
+      }
       return;
     }
     this.hire();
