@@ -59,6 +59,17 @@ test("a link asks for an own record of the shipped one's name, and takes the shi
   await thisDigest(other, own);
 });
 
+test("a shipped scene that is pasted has its record", async (t) => {
+  const { page, first } = await opened(t, { permissions: ["clipboard-read", "clipboard-write"] });
+  const text = (await scene("near_fault.toml")).toString();
+  await page.evaluate((text) => navigator.clipboard.writeText(text), text);
+  await page.getByRole("button", { name: texts.page.scene.paste, exact: true }).click();
+  const pasted = await anotherDigest(page, first);
+  await choose(page, EXAMPLES.figure08);
+  await choose(page, EXAMPLES.nearFault);
+  await thisDigest(page, pasted);
+});
+
 test("units are asked for where a record has none", async (t) => {
   const { page, first: before } = await opened(t);
   await drop(page, "bare.txt", MOTION.replace(/^.*\n/, "").replace(/^.*,/gm, ""));

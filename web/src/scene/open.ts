@@ -87,6 +87,13 @@ export function ownRecords({ text, records }: Source): RecordFile[] {
   return records.filter(({ name, own }) => own === true && named.includes(name));
 }
 
+/** A scene that is pasted: with what is at hand, and the examples' record where it names that and there is none. */
+export async function pasted(store: Store, text: string): Promise<Source> {
+  const { records } = store.source;
+  const lacksSample = recordsOf(text).includes(SAMPLE) && !records.some(({ name }) => name === SAMPLE);
+  return { text, records: lacksSample ? [...records, ...(await withRecords(store, text, false)).records] : records };
+}
+
 /** The scene with the records that it names and that are at hand: those of the scene before, and of the examples unless they are not meant. */
 async function withRecords(store: Store, text: string, hasOwn: boolean): Promise<Source> {
   const before = store.source.records;
