@@ -47,6 +47,18 @@ test("a box that is left empty, or with what is no number, shows its number agai
   assert.equal(await shownDigest(page), first);
 });
 
+test("a control of several devices shows what they have alike", async (t) => {
+  const { page, first } = await opened(t);
+  const sigma = page.getByRole("spinbutton", { name: words.controls.massRatio, exact: true });
+  const mount = page.getByLabel(words.controls.mount, { exact: true });
+  assert.deepEqual([await sigma.inputValue(), await mount.inputValue()], ["0.5", "centre-of-mass"]);
+  const text = await toml(page).inputValue();
+  const pair = 'kind = "clutched-pair"\nmass_ratio = ';
+  await toml(page).fill(text.replace(`${pair}0.5`, `${pair}1.5\nmount = "base-corners"`));
+  await anotherDigest(page, first);
+  assert.deepEqual([await sigma.inputValue(), await mount.inputValue()], ["", ""]);
+});
+
 /** Tilts the block and lets it go. */
 async function release(page) {
   await page.getByRole("application", { name: words.block.handle }).focus();

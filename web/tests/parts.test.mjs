@@ -174,6 +174,15 @@ test("a quantity is converted by the block as it was set last, not as it was run
   }
 });
 
+test("what devices have alike is shown of them, and nothing else", async () => {
+  const { shared } = await load("controls/draft");
+  const [inerter, pair] = [{ mass_ratio: 0.5 }, { mass_ratio: 1.5, mount: "base-corners" }];
+  assert.deepEqual(shared([inerter, pair], { mount: "centre-of-mass" }), {});
+  assert.deepEqual(shared([inerter, { ...pair, mass_ratio: 0.5 }]), inerter);
+  assert.deepEqual(shared([inerter], { mount: "centre-of-mass" }), { ...inerter, mount: "centre-of-mass" });
+  assert.deepEqual(shared([]), {});
+});
+
 test("another kind of motion keeps scale, start and a map over them", async () => {
   const { Draft } = await load("controls/draft");
   const { setMotion } = await load("controls/ground");

@@ -5,7 +5,7 @@ import { deviceLook } from "../colours";
 import { onTheme } from "../theme";
 import { texts } from "../texts";
 import { fieldset, type Group } from "./block";
-import { type Draft, nameOf, type Table } from "./draft";
+import { type Draft, nameOf, shared, type Table } from "./draft";
 import { numberField } from "./field";
 
 const words = texts.page.controls;
@@ -14,6 +14,7 @@ const MOST_DEVICES = 16;
 /** Devices whose inertance is a ratio, and so has a slider. */
 const bySigma = (table: Table) => table["kind"] !== "none" && numberOf(table, "mass_ratio") !== null;
 const hasDevice = (table: Table) => table["kind"] !== "none";
+const isTied = (table: Table) => table["mount"] === "tying-point";
 const isPair = (table: Table) => table["kind"] === "clutched-pair";
 
 /** The controls of the devices. */
@@ -24,7 +25,7 @@ export function deviceControls(draft: Draft): Group {
   );
   const mount = choice(words.mount, Object.entries(words.mounts), (value) => setMount(draft, value));
   const height = numberField({ label: words.mountHeight, from: 0.1, to: 10, step: 0.05 }, (value) =>
-    draft.setDevices((table) => table["mount"] === "tying-point", "mount_height_m", value),
+    draft.setDevices(isTied, "mount_height_m", value),
   );
   const clutch = choice(words.engagement, Object.entries(words.engagements), (value) => draft.setDevices(isPair, "engagement", value));
   const add = choice(words.addDevice, [["", words.add], ...Object.entries(words.kinds)], (kind) => {
@@ -41,17 +42,17 @@ export function deviceControls(draft: Draft): Group {
       shown = JSON.stringify(names);
       list.replaceChildren(...names.map((name, index) => item(draft, name, index)));
     }
-    const first = draft.devices.find(hasDevice);
     sigma.root.hidden = !draft.devices.some(bySigma);
-    sigma.show(numberOf(draft.devices.find(bySigma) ?? {}, "mass_ratio"));
-    mount.root.hidden = first === undefined;
-    mount.select.value = String(first?.["mount"] ?? "centre-of-mass");
-    height.root.hidden = first?.["mount"] !== "tying-point";
-    height.show(first ? numberOf(first, "mount_height_m") : null);
-    const pair = draft.devices.find(isPair);
+    sigma.show(numberOf(shared(draft.devices.filter(bySigma)), "mass_ratio"));
+    mount.root.hidden = !draft.devices.some(hasDevice);
+    mount.select.value = String(shared(draft.devices.filter(hasDevice), { mount: "centre-of-mass" })["mount"] ?? "");
+    const tied = draft.devices.filter(isTied);
+    height.root.hidden = tied.length === 0;
+    height.show(numberOf(shared(tied), "mount_height_m"));
+    const pairs = draft.devices.filter(isPair);
     // Plates and springs are set in the text; this list has no word for them.
-    clutch.root.hidden = pair === undefined || pair["clutch"] !== undefined;
-    clutch.select.value = String(pair?.["engagement"] ?? "ideal");
+    clutch.root.hidden = pairs.length === 0 || pairs.some((pair) => pair["clutch"] !== undefined);
+    clutch.select.value = String(shared(pairs, { engagement: "ideal" })["engagement"] ?? "");
     add.root.hidden = names.length >= MOST_DEVICES;
   };
   onTheme(() => {

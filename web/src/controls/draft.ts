@@ -146,6 +146,12 @@ export function losesAxis(about: About | null, list: List, tables: Table[]): boo
   });
 }
 
+/** What all of `tables` have alike, those without a key by `defaults`: a control of several devices shows nothing else. */
+export function shared(tables: Table[], defaults: Table = {}): Table {
+  const [first = {}, ...others] = tables.map((table) => ({ ...defaults, ...table }));
+  return Object.fromEntries(Object.entries(first).filter(([key, value]) => others.every((other) => other[key] === value)));
+}
+
 /** What tells a device from others; ground motions have no name. */
 export function nameOf(device: Table): string {
   return String(device["name"] ?? device["kind"]);
