@@ -59,6 +59,8 @@ export interface Key {
   /** Range in words, and what the key is: texts of the schema. */
   range: string;
   description: string;
+  /** Its name in this scene, where that is not the usual one. */
+  words?: string;
 }
 
 /** The response of one device. At a discontinuity two samples share a time. */

@@ -196,6 +196,20 @@ test("axes, scale, bands, cut and boundaries", async (t) => {
   await keep(page, "cut");
 });
 
+test("the amplitude of a slender block is over gα, in map and histories", async (t) => {
+  const page = await open(t);
+  await choose(page, EXAMPLES.figure08);
+  const says = (threshold) =>
+    until(threshold, async () => {
+      const titles = await panels(page).first().locator("svg text").allTextContents();
+      return titles.includes(`amplitude a_g/(${threshold})`) && (await page.getByText(`±${threshold}, `).isVisible());
+    });
+  await says("g tan α");
+  const text = await toml(page).inputValue();
+  await toml(page).fill(text.replace("[block]", '[block]\ngeometry = "slender"'));
+  await says("gα");
+});
+
 test("an axis is moved beyond its end by its lower end first", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.figure08);

@@ -1,4 +1,5 @@
 /** The histories of the run: ground, rotation, velocity and force, linked with the animation by the cursor. */
+import { tableOf } from "../block/geometry";
 import { drawSoon } from "../clock";
 import { deviceLook, flywheelTint, surface } from "../colours";
 import { el, say } from "../dom";
@@ -26,6 +27,7 @@ export function historyPanel(store: Store): HTMLElement {
   const charts = [make(words.ground), make(words.rotation), make(words.velocity), make(words.force, words.time)] as const;
   const key = el("ul", { className: "key" });
   const legend = el("p", { className: "hint" });
+  const hint = el("p", { className: "hint" });
   const root = el(
     "section",
     { className: "card histories", id: "histories" },
@@ -33,12 +35,13 @@ export function historyPanel(store: Store): HTMLElement {
     key,
     legend,
     el("div", { className: "charts" }, ...charts.map((one) => one.root)),
-    el("p", { className: "hint", textContent: words.hint }),
+    hint,
   );
   const show = () => {
     if (store.run) {
       showRun(charts, store.run, store.selected, store.durationS);
       key.replaceChildren(...store.run.responses.map((response, index) => keyOf(response, index)));
+      say(hint, words.hint(tableOf(tableOf(store.run.about.resolved)["block"])["geometry"] === "slender"));
       say(legend, words.legend(store.run.responses[store.selected]?.device ?? ""));
     }
   };

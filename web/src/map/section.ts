@@ -10,7 +10,7 @@ import { type Axes, AxesForm } from "./axes_form";
 import { axisToml, mapIdentity, suggestedPair, valueOf } from "./axis";
 import { mapDownloads } from "./downloads";
 import { Filling } from "./filling";
-import { keyName } from "./key_name";
+import { keyName, named } from "./key_name";
 import type { Place } from "./panel";
 import { Playing } from "./playing";
 import { Sheet, outcomesOf } from "./sheet";
@@ -100,8 +100,8 @@ class MapSection {
       if (number !== this.latest) {
         return;
       }
-      [this.about, this.keys] = [about, keys];
-      this.form.show(about.map ?? suggestedPair(keys), keys);
+      [this.about, this.keys] = [about, named(keys, about.resolved)];
+      this.form.show(about.map ?? suggestedPair(keys), this.keys);
       await this.renew(about);
     } catch (problem) {
       if (number === this.latest) {

@@ -149,7 +149,8 @@ export const page = {
     time: "Time (s)",
     legend: (device: string) => `Tints: first (blue) or second (yellow) flywheel of ${device} engaged. Ticks: its impacts.`,
     chart: (name: string) => `${name} over time; the values are in history.csv`,
-    hint: "Click or drag in a chart to move in time. Dashed in the first: ±g tan α, from which on a block at rest is lifted.",
+    hint: (isSlender: boolean) =>
+      `Click or drag in a chart to move in time. Dashed in the first: ±${isSlender ? "gα" : "g tan α"}, from which on a block at rest is lifted, on rigid ground that does not move vertically and where it does not slide.`,
   },
 
   scene: {

@@ -62,6 +62,7 @@ export const views = {
     "ground.N.scale": "scale of the motion",
     "controller.latency_s": "delay of the controller",
   } as Record<string, string>,
+  slenderAmplitude: "amplitude a_g/(gα)",
   loop: {
     title: "Controller",
     settings: "Law and sensors",
