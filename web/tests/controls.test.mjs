@@ -59,6 +59,21 @@ test("a control of several devices shows what they have alike", async (t) => {
   assert.deepEqual([await sigma.inputValue(), await mount.inputValue()], ["", ""]);
 });
 
+test("a base that slides is said, since it is not drawn", async (t) => {
+  const { page, first } = await opened(t);
+  // A (A − μ) g T²/(2μ), as in the test of the command.
+  const newmark = ((0.4 * 0.25 * 9.80665 * 0.25) / 0.3).toFixed(4);
+  await toml(page).fill(
+    '[block]\nsize_m = 1.0\nslenderness_deg = 23.0\nfriction_coefficient = 0.15\nrestitution = "geometric"\n[[device]]\nkind = "none"\n' +
+      '[[ground]]\nmotion = "rectangular"\namplitude_g = 0.4\nduration_s = 0.5\n',
+  );
+  const slid = await anotherDigest(page, first);
+  assert.ok(await page.getByText(words.results.slides("none", 0, Number(newmark), -Number(newmark))).isVisible());
+  await choose(page, EXAMPLES.freeRocking);
+  await anotherDigest(page, slid);
+  assert.equal(await page.getByText("the base slides").count(), 0);
+});
+
 /** Tilts the block and lets it go. */
 async function release(page) {
   await page.getByRole("application", { name: words.block.handle }).focus();

@@ -5,6 +5,7 @@ import type { Response } from "../engine";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { onTheme } from "../theme";
+import { numberOf, tableOf } from "./geometry";
 
 /** The table of results, with a live text of the outcomes. */
 export function results(store: Store): HTMLElement {
@@ -12,6 +13,7 @@ export function results(store: Store): HTMLElement {
   const body = el("tbody");
   const head = el("tr", {}, ...words.columns.map((text) => el("th", { scope: "col", textContent: text })));
   const table = el("table", { className: "results" }, el("caption", { textContent: words.caption }), el("thead", {}, head), body);
+  const slides = el("p", { className: "hint" });
   const live = el("p", { className: "hidden", role: "status" });
   const show = () => {
     const { run } = store;
@@ -23,6 +25,7 @@ export function results(store: Store): HTMLElement {
     if (focused) {
       body.querySelector<HTMLInputElement>("input:checked")?.focus();
     }
+    say(slides, run.responses.map(slide).join(" "));
     say(live, texts.page.block.picture(run));
   };
   store.subscribe("run", show);
@@ -30,7 +33,14 @@ export function results(store: Store): HTMLElement {
   onTheme(show);
   const scroll = el("div", { className: "scroll", tabIndex: 0, role: "region" }, table);
   scroll.setAttribute("aria-label", words.caption);
-  return el("div", {}, scroll, live);
+  return el("div", {}, scroll, slides, live);
+}
+
+/** How a base slides; empty where it does not. */
+function slide({ device, summary }: Response): string {
+  const sliding = tableOf(summary["sliding"]);
+  const [from, most, end] = ["first_slip_time_s", "peak_slide_m", "residual_displacement_m"].map((key) => numberOf(sliding, key));
+  return from == null ? "" : texts.page.results.slides(device, from, most ?? 0, end ?? 0);
 }
 
 function row(store: Store, response: Response, index: number): HTMLElement {

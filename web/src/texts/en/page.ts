@@ -76,6 +76,8 @@ export const page = {
 
   results: {
     caption: "Results; the chosen device's clutch and impacts are marked in the histories",
+    slides: (device: string, fromS: number, mostM: number, endM: number) =>
+      `${device}: the base slides from ${fromS.toFixed(3)} s on: ${mostM.toFixed(4)} m at most, ${endM.toFixed(4)} m at the end. The picture does not show it.`,
     columns: ["Device", "Outcome", "Peak θ/α", "Impacts", "Clutch switches", "Peak F/(mg)"],
   },
 
