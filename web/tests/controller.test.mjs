@@ -89,6 +89,16 @@ test("every setting of the controller counts, and the same setting gives the sam
   assert.match(await toml(page).inputValue(), /latency_s = 0.001/);
 });
 
+test("a seed is shown with all its digits", async (t) => {
+  const { page } = await openLoop(t);
+  const seed = sections(page).loop.getByLabel(words.seed, { exact: true });
+  await enter(seed, "1234567890123457");
+  await until("the seed of the scene", async () => (await toml(page).inputValue()).includes("seed = 1234567890123457"));
+  // Longer than the section waits for the next change.
+  await page.waitForTimeout(600);
+  assert.equal(await seed.inputValue(), "1234567890123457");
+});
+
 test("a number beyond its limits is said in one line, and the scene keeps its own", async (t) => {
   const { page, first } = await openLoop(t);
   for (const [label, wrong, own, line] of [

@@ -52,7 +52,8 @@ export class ControllerForm {
       typeof value === "number" ? String(Number((scale * value).toPrecision(12))) : "";
     showNumber(this.latency, number(part(controller, "latency_s"), 1000));
     showNumber(this.rate, number(part(controller, "rate_hz"), 1));
-    showNumber(this.seed, number(part(sensors, "seed"), 1));
+    // Every digit of a seed counts.
+    showNumber(this.seed, String(part(sensors, "seed") ?? ""));
   }
 }
 
