@@ -106,6 +106,16 @@ test("a block turns about the toe that it stands on", async () => {
   assert.ok(Math.abs(placed(shape, Math.PI / 2, 0.3, 4)[1]) < 1e-12);
 });
 
+test("a name is cut to the room that it has", async () => {
+  const { fitted } = await load("block/label");
+  const context = { measureText: (text) => ({ width: 10 * [...text].length }) };
+  assert.equal(fitted(context, "clutched pair", 130), "clutched pair");
+  assert.equal(fitted(context, "clutched pair", 129), "clutched pa…");
+  assert.equal(fitted(context, "🧱🧱🧱", 20), "🧱…");
+  assert.equal(fitted(context, "", 0), "");
+  assert.equal(fitted(context, "none", 0), "…");
+});
+
 test("steps go to the next and the previous event and stop at the ends", async () => {
   const { eventFrom, eventsOf } = await load("block/events");
   const events = eventsOf({

@@ -7,6 +7,7 @@ import { texts } from "../texts";
 import { onTheme } from "../theme";
 import { depthM, drawDevice, halfSpanM, heightM, roomForGroundM } from "./draw";
 import { placed, type Shape } from "./geometry";
+import { fitted } from "./label";
 import { motionOf, poseAt, valueAt, type Motion, type Pose } from "./motion";
 
 /** Where the devices are in the canvas (CSS px). */
@@ -156,7 +157,7 @@ export class Stage {
   }
 
   private label(index: number, left: number, top: number, ink: string, muted: string, accent: string): void {
-    const { context, motion, store, pose } = this;
+    const { context, layout, motion, store, pose } = this;
     const device = motion?.devices[index];
     const alpha = store.run?.about.slendernessRad ?? 1;
     if (context === null || !device) {
@@ -166,7 +167,7 @@ export class Stage {
     context.fillRect(left + 6, top + 6, 12, 12);
     context.fillStyle = ink;
     context.font = `${store.selected === index ? "bold " : ""}13px system-ui, sans-serif`;
-    context.fillText(device.response.device, left + 23, top + 17);
+    context.fillText(fitted(context, device.response.device, (layout?.slotWidth ?? 0) - 27), left + 23, top + 17);
     context.font = "12px system-ui, sans-serif";
     context.fillStyle = muted;
     context.fillText(texts.page.block.state(pose.rotationRad / alpha, pose.overturned), left + 23, top + 33);
