@@ -4,13 +4,16 @@ use toml::{Table, Value};
 
 use super::SceneError;
 
+/// Parts of a key, at most. A scene has none of more than five, and whatever reads tables within tables without end runs out of stack.
+const MOST_PARTS: usize = 16;
+
 /// Sets the key of `item` (`block.size_m=2`, `device.1.mass_ratio=0.5`) in `table`. The value is read as TOML, and as a
 /// plain string where it is none. Without a value (`block.size_m=`) the key is left out. The number after the last of a list, or 0 where
 /// there is none, adds a table to it (`vertical.0.motion=sine`).
 ///
 /// # Errors
-/// [`SceneError::Conflict`] when `item` has no `=`, its key leads through a value that is not a table or an array, or what shall be left
-/// out is not there.
+/// [`SceneError::Conflict`] when `item` has no `=`, its key has too many parts or leads through a value that is not a table or an array, or
+/// what shall be left out is not there.
 pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneError> {
     let refuse = |key: &str, reason: String| SceneError::Conflict { origin: origin.to_owned(), key: key.to_owned(), reason };
     let Some((path, text)) = item.split_once('=') else {
@@ -19,6 +22,9 @@ pub fn apply(table: &mut Table, item: &str, origin: &str) -> Result<(), SceneErr
     let path = path.trim();
     if path.is_empty() || path.split('.').any(str::is_empty) {
         return Err(refuse(item, "must be KEY=VALUE, such as block.size_m=2".to_owned()));
+    }
+    if let Some((end, _)) = path.match_indices('.').nth(MOST_PARTS - 1) {
+        return Err(refuse(&path[..end], format!("a key has {MOST_PARTS} parts at most, and this one goes on")));
     }
     let value = toml::from_str::<Table>(&format!("value = {text}"))
         .ok()
@@ -148,6 +154,14 @@ mod tests {
         for item in ["a", "=1", "a.b=1", "b.2.c=2", "b.x=2", "a..b=1", "d.1.e=1", "e=", "b.1=", "b.0.d="] {
             assert!(apply(&mut table, item, "scene").is_err(), "{item}");
         }
+    }
+
+    #[test]
+    fn a_path_without_end_is_refused() {
+        let mut table = Table::new();
+        let message = apply(&mut table, &format!("a{}=1", ".b".repeat(100_000)), "scene").unwrap_err().to_string();
+        assert_eq!(message, format!("scene: a{}: a key has 16 parts at most, and this one goes on", ".b".repeat(15)));
+        assert!(table.is_empty());
     }
 
     #[test]
