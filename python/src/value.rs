@@ -1,11 +1,16 @@
 //! Values of Python as those of a scene.
 
+use std::fmt::Display;
+
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt, PyString};
 use toml::{Table, Value};
 
 use crate::errors::range;
+
+/// What NumPy calls the kinds of its bools, whole numbers, real numbers and objects of Python.
+const REAL_KINDS: &str = "biufO";
 
 /// Deepest tables in tables.
 const DEEPEST: usize = 16;
@@ -65,6 +70,20 @@ fn value_within(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
     if is_bool(object)? {
         return object.is_truthy().map(Value::Boolean);
     }
+    if object.is_instance_of::<PyString>() {
+        return object.extract().map(Value::String);
+    }
+    let is_one = object.getattr("shape").is_ok_and(|shape| shape.len().is_ok_and(|length| length == 0));
+    if is_one && let Ok(dtype) = object.getattr("dtype") {
+        // A complex number would be taken by its real part, a time by the number in it.
+        if dtype.getattr("kind").and_then(|kind| kind.extract::<String>()).is_ok_and(|kind| !REAL_KINDS.contains(&kind)) {
+            return Err(of_another_kind(&dtype));
+        }
+        // An array of one value.
+        if object.hasattr("__len__")? {
+            return value_within(&object.call_method0("item")?, depth);
+        }
+    }
     if object.is_instance_of::<PyInt>() || object.hasattr("__index__")? && !object.hasattr("__len__")? {
         let beyond = |_| {
             let infinity = if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY };
@@ -72,22 +91,18 @@ fn value_within(object: &Bound<'_, PyAny>, depth: usize) -> PyResult<Value> {
         };
         return object.extract().map(Value::Integer).or_else(beyond);
     }
-    if object.is_instance_of::<PyString>() {
-        return object.extract().map(Value::String);
-    }
     if object.hasattr("__fspath__")? {
         return object.call_method0("__fspath__")?.extract().map(Value::String);
     }
-    let is_scalar =
-        !object.hasattr("__len__")? || object.getattr("shape").is_ok_and(|shape| shape.len().is_ok_and(|length| length == 0));
-    if is_scalar && object.hasattr("__float__")? {
+    if !object.hasattr("__len__")? && object.hasattr("__float__")? {
         return object.extract().map(Value::Float);
     }
     let Ok(items) = object.try_iter() else {
-        let name = object.get_type().name()?;
-        return Err(PyTypeError::new_err(format!(
-            "a value of a scene is a bool, a number, a text, a dict or a sequence, and not {name}"
-        )));
+        return Err(of_another_kind(object.get_type().name()?));
     };
     items.map(|item| value_within(&item?, depth)).collect::<PyResult<_>>().map(Value::Array)
+}
+
+fn of_another_kind(kind: impl Display) -> PyErr {
+    PyTypeError::new_err(format!("a value of a scene is a bool, a number, a text, a dict or a sequence, and not {kind}"))
 }

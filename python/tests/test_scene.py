@@ -5,6 +5,7 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -162,6 +163,18 @@ def test_changes_that_cannot_be_are_refused_by_key(key: str, value: object, refu
     with pytest.raises(sprag.InputError) as raised:
         scene.set(key, value)
     assert raised.value.key == refused
+
+
+@pytest.mark.parametrize(
+    "value",
+    [np.complex128(2 + 3j), np.complex64(2), np.array(2 + 3j), np.timedelta64(2, "ns"), np.array(2, "M8[ns]"), np.array("2")],
+    ids=repr,
+)
+def test_what_is_no_real_number_of_numpy_is_refused(value: Any) -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    for make in (lambda: scene.set("block.size_m", value), lambda: sprag.Block(size_m=value, slenderness_deg=10.0)):
+        with pytest.raises(TypeError, match="a value of a scene is"):
+            make()
 
 
 def test_errors_say_nothing_of_the_command() -> None:
