@@ -10,7 +10,7 @@ from typing import Any
 
 from . import _core
 from ._core import Record
-from ._table import plain
+from ._table import hold, plain
 from ._tables import Accuracy, Block, Checks, Controller, Device, Duration, Motion, NoDevice, Output
 from .errors import InputError
 
@@ -42,6 +42,7 @@ class RecordedMotion:
         if not isinstance(self.record, Record):
             raise InputError("record must be a sprag.Record", "record")
         _core.check_table("ground", self._keys("record"))
+        hold(self)
 
     def _keys(self, name: str) -> dict[str, Any]:
         return {"motion": "record", "file": name, "scale": self.scale, "start_s": self.start_s}

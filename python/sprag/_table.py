@@ -23,15 +23,12 @@ class Table:
     _fixed: ClassVar[dict[str, str]] = {}
 
     def __post_init__(self) -> None:
-        for field in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, field.name)
-            if isinstance(value, list):
-                object.__setattr__(self, field.name, tuple(value))
         keys: Any = self._keys()
         first, *inner = self._path.split(".")
         for name in reversed(inner):
             keys = [keys] if name == "0" else {name: keys}
         _core.check_table(first, NEEDED.get(first, {}) | keys)
+        hold(self)
         texts = {name: value for name, value in vars(self).items() if isinstance(value, str)}
         known = words(type(self)) if texts else {}
         for name, value in texts.items():
@@ -47,6 +44,16 @@ class Table:
     def __repr__(self) -> str:
         given = ((field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in given if value is not None)})"
+
+
+def hold(table: Any) -> None:
+    """Makes tuples of the lists of a checked table, and a number of an array of one: these do not change, and have a hash."""
+    for field in fields(table):
+        value = getattr(table, field.name)
+        if isinstance(value, list):
+            object.__setattr__(table, field.name, tuple(value))
+        elif getattr(value, "shape", None) == () and hasattr(value, "__len__"):
+            object.__setattr__(table, field.name, value.item())
 
 
 def words(table: type[Table]) -> dict[str, list[str]]:

@@ -87,6 +87,17 @@ def test_numbers_of_numpy_are_numbers() -> None:
     assert block == sprag.Block(size_m=2.0, slenderness_deg=10.0)
 
 
+def test_an_array_of_one_number_is_that_number_for_good() -> None:
+    size, seed = np.array(2.0), np.array(7)
+    block = sprag.Block(size_m=size, slenderness_deg=10.0)
+    sensors = sprag.Sensors(seed=seed)
+    size[...], seed[...] = 5.0, 8
+    for held, written in [(block, sprag.Block(size_m=2.0, slenderness_deg=10.0)), (sensors, sprag.Sensors(seed=7))]:
+        assert held == written
+        assert hash(held) == hash(written)
+        assert repr(held) == repr(written)
+
+
 @pytest.mark.parametrize("size", [2**70, -(2**70), 10**400, -(10**400)], ids=lambda size: f"{size.bit_length()} bits, {size > 0}")
 def test_whole_numbers_of_any_length_are_within_a_range_or_not(size: int) -> None:
     with pytest.raises(sprag.InputError) as raised:
