@@ -1,6 +1,9 @@
 //! A controller in closed loop with the plant, its sensors and its clutches.
 
+use std::cell::Cell;
+
 use numpy::{Element, IntoPyArray as _};
+use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sprag_shared::observers::counted_swing::clutches;
@@ -38,6 +41,7 @@ pub fn closed_loop<'py>(
         None => long_call(py, |interrupt| run(&desk, index, seed, interrupt, None))?,
         // The function needs the interpreter at every tick.
         Some(function) => {
+            let _loop = LoopByFunction::enter()?;
             let interrupt = Interrupt::default();
             let law = PythonLaw::new(function, predicts, &interrupt);
             let report = run(&desk, index, seed, &interrupt, Some(&law));
@@ -48,6 +52,35 @@ pub fn closed_loop<'py>(
         }
     };
     dict(py, report.map_err(|failure| failure.raise())?.1, &desk)
+}
+
+/// Loops by functions within loops by functions, at most: a function that closes a loop by itself would run out of stack.
+const MOST_WITHIN: u32 = 8;
+
+thread_local! {
+    /// Loops by functions that this thread is in.
+    static WITHIN: Cell<u32> = const { Cell::new(0) };
+}
+
+/// A loop by a function, while it lasts.
+struct LoopByFunction;
+
+impl LoopByFunction {
+    /// # Errors
+    /// `RecursionError`.
+    fn enter() -> PyResult<LoopByFunction> {
+        if WITHIN.get() == MOST_WITHIN {
+            return Err(PyRecursionError::new_err("clutch laws close loops within loops by clutch laws, without end"));
+        }
+        WITHIN.set(WITHIN.get() + 1);
+        Ok(LoopByFunction)
+    }
+}
+
+impl Drop for LoopByFunction {
+    fn drop(&mut self) {
+        WITHIN.set(WITHIN.get() - 1);
+    }
 }
 
 /// One loop of a scene.

@@ -78,6 +78,21 @@ def test_what_a_law_raises_ends_the_loop(scene: sprag.Scene) -> None:
         sprag.closed_loop(scene, law=lambda: True)
 
 
+def test_a_law_that_closes_loops_by_itself_ends_like_any_recursion(scene: sprag.Scene) -> None:
+    def endless(_: sprag.Situation) -> bool:
+        return sprag.closed_loop(scene, law=endless).outcome.overturned
+
+    def inner(at: sprag.Situation) -> bool:
+        if not seen:
+            seen.append(sprag.closed_loop(scene, law=resisting).digest())
+        return resisting(at)
+
+    seen: list[str] = []
+    with pytest.raises(RecursionError, match="clutch laws"):
+        sprag.closed_loop(scene, law=endless)
+    assert [sprag.closed_loop(scene, law=inner).digest()] == seen
+
+
 def test_situations_compare_hash_print_and_pickle(scene: sprag.Scene) -> None:
     seen: list[sprag.Situation] = []
 
