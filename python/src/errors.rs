@@ -97,9 +97,22 @@ impl Raise for SceneError {
     }
 }
 
+/// `words` on a record with the arguments of `Record.read` in the place of the command's options.
+pub fn by_argument(words: &str) -> String {
+    let here = |words: String, (option, argument): (&str, &str)| words.replace(option, argument);
+    let options = [
+        ("--dt 0.005", "time_step_s=0.005"),
+        ("--dt", "time_step_s"),
+        ("--units", "units"),
+        ("--component", "component"),
+        ("--resample", "resample_to_s"),
+    ];
+    options.into_iter().fold(words.to_owned(), here)
+}
+
 impl Raise for RecordError {
     fn raise(self) -> PyErr {
-        let message = self.to_string();
+        let message = by_argument(&self.to_string());
         match &self {
             RecordError::TimeStepRange { value, lowest, highest, .. } => {
                 let (value, range) = (value.to_string(), format!("{lowest} s to {highest} s"));
@@ -120,7 +133,7 @@ impl Raise for RecordError {
 
 impl Raise for GroundError {
     fn raise(self) -> PyErr {
-        let message = self.to_string();
+        let message = by_argument(&self.to_string());
         match self {
             GroundError::Scene(error) => error.raise(),
             GroundError::Record { key, .. } => input(&message, key.as_ref().map(|KeyPath { key, .. }| key.as_str()), None, None),

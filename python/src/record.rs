@@ -9,9 +9,9 @@ use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyByteArray, PyBytes, PyComplex, PyString, PyTuple};
 use sprag_shared::math::fnv::Fnv;
 use sprag_sim::record::intensity::{cumulative_absolute_velocity_m_s, uniform_duration_s};
-use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, StatedStep, Units};
+use sprag_sim::record::{Component, Header, Intensity, ReadOptions, Record as SimRecord, StatedStep, TIME_STEP_RANGE_S, Units};
 
-use crate::errors::{Raise as _, input, range};
+use crate::errors::{Raise as _, by_argument, input, range};
 use crate::long_call::long_call;
 
 /// Recorded ground acceleration with equal time steps, in SI units; linear between its samples.
@@ -42,7 +42,8 @@ pub struct Record {
 
 impl Record {
     fn of(record: SimRecord) -> Record {
-        let (format, warnings) = (record.format.name().to_owned(), record.warnings.iter().map(ToString::to_string).collect());
+        let warnings = record.warnings.iter().map(|warning| by_argument(&warning.to_string())).collect();
+        let format = record.format.name().to_owned();
         Record { record, format, warnings, intensity: PyOnceLock::new(), samples: PyOnceLock::new() }
     }
 
@@ -125,6 +126,10 @@ impl Record {
         resample_to_s: Option<f64>,
     ) -> PyResult<Record> {
         let units = units.map(units_of).transpose()?;
+        let (lowest, highest) = TIME_STEP_RANGE_S;
+        if let Some(step_s) = resample_to_s.filter(|step_s| !(lowest..=highest).contains(step_s)) {
+            return Err(range("resample_to_s", step_s, &format!("from {lowest} to {highest} s")));
+        }
         let options = ReadOptions { units, time_step_s, component: component.map(Component::from), resample_to_s };
         long_call(py, |_| SimRecord::read(path, &options))?.map(Record::of).map_err(|error| error.raise())
     }

@@ -10,7 +10,7 @@ use sprag_sim::simulation::DeviceRun;
 use sprag_sim::simulation::energy::COLUMNS;
 use sprag_sim::simulation::simulate as simulated;
 
-use crate::errors::{Raise as _, refused};
+use crate::errors::{Raise as _, by_argument, refused};
 use crate::long_call::long_call;
 use crate::scene::Scene;
 
@@ -32,7 +32,7 @@ pub fn simulate<'py>(py: Python<'py>, scene: &Scene) -> PyResult<Vec<Bound<'py, 
 
 /// What looks like a mistake in `scene` and its `records`, a line each.
 pub fn warnings(scene: &SimScene, records: &[RecordSummary]) -> Vec<String> {
-    [scene.warnings(), every_warning(records)].concat()
+    scene.warnings().into_iter().chain(every_warning(records).iter().map(|line| by_argument(line))).collect()
 }
 
 /// A run as Python has it, with the `warnings` of its scene.

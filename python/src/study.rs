@@ -20,7 +20,7 @@ use sprag_studies::optimise::problem::{Choices, Problem};
 use sprag_studies::optimise::typed_tables::{design_table, motion_table};
 
 use crate::columns::{self, Columns};
-use crate::errors::{Raise as _, failed, missing, range, refused};
+use crate::errors::{Raise as _, by_argument, failed, missing, range, refused};
 use crate::long_call::long_call;
 use crate::scene::{Named, Scene};
 use crate::threads;
@@ -94,16 +94,18 @@ impl Study {
             None => StudyRecords::read(&self.study).map_err(|error| error.raise())?,
         };
         if records.records.is_empty() {
-            return Err(missing("records", records.unreadable.first().map_or("one record or more", String::as_str)));
+            let unreadable = records.unreadable.first().map(|line| by_argument(line));
+            return Err(missing("records", unreadable.as_deref().unwrap_or("one record or more")));
         }
         Ok(records)
     }
 
     /// What is said of them.
     fn say(&self, dict: &Bound<'_, PyDict>, more: Vec<String>, records: &StudyRecords, left_out: &[String]) -> PyResult<()> {
-        let warnings = [more, self.study.warnings(), records.every_warning()].concat();
+        let here = |lines: &[String]| lines.iter().map(|line| by_argument(line)).collect::<Vec<_>>();
+        let warnings = [more, self.study.warnings(), here(&records.every_warning())].concat();
         dict.set_item("warnings", warnings)?;
-        dict.set_item("unreadable", &records.unreadable)?;
+        dict.set_item("unreadable", here(&records.unreadable))?;
         dict.set_item("left_out", left_out)
     }
 }

@@ -109,6 +109,35 @@ def test_what_cannot_be_read_is_refused(tmp_path: Path) -> None:
     assert sprag.Record.read(tmp_path / "bare.txt", units="g", time_step_s=0.01).pga_m_s2 == 9.80665
 
 
+def test_what_is_said_of_records_names_arguments_and_no_options(tmp_path: Path) -> None:
+    block = sprag.Block(size_m=2.0, slenderness_deg=10.0)
+    rows = "".join(f"{time},{1 + index % 2},2\n" for index, time in enumerate([0.0, 0.01, 0.02, 0.05, 0.06]))
+    for name, text, key in [
+        ("bare.txt", "0 1 0", "time_step_s"),
+        ("bare.txt", "0 1 0", "units"),
+        ("uneven.csv", f"time_s,acc_g\n{rows}".replace(",2\n", "\n"), "resample_to_s"),
+        ("several.csv", f"time_s,north_g,east_g\n{rows}", "component"),
+    ]:
+        (tmp_path / name).write_text(text)
+        others = {"time_step_s": 0.01, "units": "g", "resample_to_s": 0.01, "component": "east"}
+        del others[key]
+        file = {"motion": "record", "file": tmp_path / name}
+        scene = sprag.Scene(block=block, ground=sprag.Sine(amplitude_g=0.1, frequency_hz=1.0)).set("ground.0", file | others)
+        said: list[str] = []
+        for read in (lambda: sprag.Record.read(tmp_path / name, **others), lambda: sprag.simulate(scene)[0]):  # noqa: B023
+            try:
+                said.extend(read().warnings)
+            except sprag.InputError as error:
+                assert str(error.key).endswith(key)
+                said.append(str(error))
+        assert any(key in line for line in said), said
+        assert not any("--" in line for line in said), said
+    for step in (0.0, 2.0, math.nan):
+        with pytest.raises(sprag.InputError) as raised:
+            sprag.Record.read(tmp_path / "bare.txt", units="g", time_step_s=0.01, resample_to_s=step)
+        assert raised.value.key == "resample_to_s"
+
+
 @given(arrays.arrays(np.float64, st.integers(0, 20)), st.floats(), st.sampled_from(["g", "m/s2", "gal", "", "parsec"]))
 def test_any_array_gives_a_record_or_one_error(samples: np.ndarray, step: float, units: str) -> None:
     try:
