@@ -91,7 +91,13 @@ impl Raise for SceneError {
             SceneError::Range { key, value, range, .. } => input(&message, Some(key), Some(value), Some(range)),
             SceneError::Missing { key, needed, .. } => input(&message, Some(key), None, Some(needed)),
             SceneError::Conflict { key, .. } => input(&message, Some(key), None, None),
-            SceneError::Syntax { key, .. } => input(&message, key.as_deref(), None, None),
+            SceneError::Syntax { key: Some(key), message: words, .. } => {
+                // A value of another kind.
+                let found = words.strip_prefix(key.as_str()).and_then(|words| words.strip_prefix(" is "));
+                let (value, range) = found.and_then(|found| found.rsplit_once(", but must be ")).unzip();
+                input(&message, Some(key), value, range)
+            }
+            SceneError::Syntax { key: None, .. } => input(&message, None, None, None),
             SceneError::Unreadable { .. } | SceneError::TooLarge { .. } => input(&message, None, None, None),
         }
     }

@@ -159,7 +159,7 @@ impl Scene {
 /// `InputError` for what is no key.
 #[pyfunction]
 pub fn change(key: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
-    if key.is_empty() || key.contains(|c: char| c == '=' || c.is_whitespace()) {
+    if key.split('.').any(str::is_empty) || key.contains(|c: char| c == '=' || c.is_whitespace()) {
         return Err(range("key", format_args!("{key:?}"), "a key such as block.size_m"));
     }
     let value = if value.is_none() { String::new() } else { self::value(value)?.to_string() };

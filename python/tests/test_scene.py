@@ -155,6 +155,8 @@ def test_results_say_what_looks_wrong_of_records() -> None:
         ("ground.5.scale", 2.0, "ground.5.scale"),
         ("ground", [], "ground"),
         ("a=b", 1, "key"),
+        ("block..size_m", 1, "key"),
+        pytest.param(".".join("a" * 100_000), 1, ".".join("a" * 16), id="without end"),
         ("", 1, "key"),
     ],
 )
@@ -163,6 +165,23 @@ def test_changes_that_cannot_be_are_refused_by_key(key: str, value: object, refu
     with pytest.raises(sprag.InputError) as raised:
         scene.set(key, value)
     assert raised.value.key == refused
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "shown", "allowed"),
+    [
+        ("block.size_m", "large", '"large"', "a number"),
+        ("block.size_m", [2.0], "a list", "a number"),
+        ("run", 3, 3.0, "a table"),
+        ("output.energy", 1.5, 1.5, "true or false"),
+        ("title", True, "true", "a text in quotes"),
+    ],
+)
+def test_a_value_of_another_kind_is_named_with_what_it_may_be(key: str, value: object, shown: object, allowed: str) -> None:
+    scene = sprag.Scene(block=PIER, ground=sprag.Sine(amplitude_g=0.3, frequency_hz=1.0))
+    with pytest.raises(sprag.InputError) as raised:
+        scene.set(key, value)
+    assert (raised.value.key, raised.value.value, raised.value.range) == (key, shown, allowed)
 
 
 @pytest.mark.parametrize(
