@@ -173,7 +173,7 @@ fn in_words(message: &str) -> Option<String> {
         return Some("is a list, but must be a table".to_owned());
     }
     // What a choice of words says of a table.
-    if message.starts_with("wanted exactly 1 element, found ") {
+    if message.starts_with("wanted exactly 1 element, ") {
         return Some("is a table, but must be a text in quotes".to_owned());
     }
     let (found, wanted) = message.strip_prefix("invalid type: ")?.split_once(", expected ")?;
@@ -187,6 +187,9 @@ fn in_words(message: &str) -> Option<String> {
             .find_map(|kind| other.strip_prefix(kind))
             .map_or_else(|| other.to_owned(), |value| value.trim_matches('`').to_owned()),
     };
+    let is_whole = wanted.starts_with(['u', 'i']) && wanted[1..].parse::<u8>().is_ok() || wanted == "usize";
+    // What is left of an integer that TOML has no room for: a floating-point number, or a text.
+    let is_long = found.trim_matches('"').parse::<f64>().is_ok_and(|number| number.abs() >= 9_223_372_036_854_775_808.0);
     let wanted = match wanted {
         "f64" => "a number",
         "a string" | "path string" | "string only" => "a text in quotes",
@@ -194,7 +197,8 @@ fn in_words(message: &str) -> Option<String> {
         "a map" => "a table",
         "a boolean" => "true or false",
         _ if wanted.starts_with("struct ") => "a table",
-        _ if wanted.starts_with(['u', 'i']) && wanted[1..].parse::<u8>().is_ok() || wanted == "usize" => "a whole number",
+        _ if is_whole && is_long => "a whole number below 2^63",
+        _ if is_whole => "a whole number",
         other => other,
     };
     Some(format!("is {found}, but must be {wanted}"))
