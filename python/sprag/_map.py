@@ -77,10 +77,16 @@ class Map(SceneResult):
         if ax is None:
             ax = extra("matplotlib.pyplot").subplots()[1]
         assert ax is not None
+        axes = self.scene._table()["map"]
+        logarithmic = {name: axes.get(name, {}).get("scale") == "logarithmic" for name in ("x", "y")}
         # A cut is a band: it has no height of its own.
-        y = _edges(self.y) if self.y_key else np.array([0.0, 1.0])
+        y = _edges(self.y, logarithmic["y"]) if self.y_key else np.array([0.0, 1.0])
         colours = extra("matplotlib.colors").ListedColormap([outcome.colour for outcome in Outcome.of_studies()])
-        ax.pcolormesh(_edges(self.x), y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="flat")
+        ax.pcolormesh(_edges(self.x, logarithmic["x"]), y, self.outcome[device], cmap=colours, vmin=0, vmax=3, shading="flat")
+        if logarithmic["x"]:
+            ax.set_xscale("log")
+        if logarithmic["y"]:
+            ax.set_yscale("log")
         if self.y_key is None:
             ax.set_yticks([])
         for outcome in Outcome.of_studies():
@@ -92,8 +98,10 @@ class Map(SceneResult):
         return ax
 
 
-def _edges(values: Floats) -> Floats:
-    """Edges of cells about `values`: halfway between them, and as far beyond the ends."""
+def _edges(values: Floats, logarithmic: bool) -> Floats:
+    """Edges of cells about `values`: halfway between them, by the scale, and as far beyond the ends."""
+    if logarithmic:
+        return np.exp(_edges(np.log(values), logarithmic=False))
     between = (values[1:] + values[:-1]) / 2
     return np.concatenate([[2 * values[0] - between[0]], between, [2 * values[-1] - between[-1]]])
 

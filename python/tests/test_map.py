@@ -48,6 +48,16 @@ def test_a_picture_of_a_cut_is_a_band_of_its_cells(scenes: Path) -> None:
     assert (corners[1, :, 1] - corners[0, :, 1] > 0.0).all()
 
 
+def test_a_picture_of_a_logarithmic_axis_has_its_scale(scenes: Path) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    scene = sprag.Scene.read(scenes / "near_fault.toml")
+    axes = sprag.map(scene, x=sprag.Axis(key="ground.0.scale", start=0.01, stop=1.0, cells=3, logarithmic=True)).plot()
+    assert (axes.get_xscale(), axes.get_yscale()) == ("log", "linear")
+    root = 10.0**0.5
+    edges = axes.collections[0].get_coordinates()[0, :, 0].tolist()
+    assert edges == pytest.approx([0.01 / root, 0.01 * root, 0.1 * root, 1.0 * root])
+
+
 def test_a_map_of_laws_names_every_map(scenes: Path, command, tmp_path: Path) -> None:
     axis = sprag.Axis(key="controller.latency_s", start=0.0, stop=0.05, cells=2)
     scene = sprag.Scene.read(scenes / "laws.toml").set("map.y", None).set("map.x", axis)
