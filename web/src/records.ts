@@ -1,8 +1,8 @@
-/** Records of the user, dropped on the page or chosen: they become the ground motion of the scene, and stay on this machine. */
+/** Files of the user, dropped on the page or chosen, which stay on this machine: a record becomes the ground motion of the scene, and a scene is opened. */
 import { button, choice, el, say } from "./dom";
 import { listSettings } from "./controls/draft";
 import type { RecordAbout, RecordFile } from "./engine";
-import { recordsOf } from "./scene/open";
+import { given, recordsOf } from "./scene/open";
 import type { Store } from "./store";
 import { texts } from "./texts";
 
@@ -16,7 +16,7 @@ export function recordControls(store: Store): HTMLElement {
   const words = texts.page.records;
   let last: RecordFile | null = null;
   const said = el("p", { className: "hint", role: "status" });
-  const chooser = el("input", { type: "file", className: "file" });
+  const chooser = el("input", { type: "file", className: "file", multiple: true });
   const units = choice(words.units, [["", words.asFile], ...UNITS.map((unit): [string, string] => [unit, unit])], () => undefined);
   const step = el("input", { type: "number", min: "0", step: "any" });
   const stepField = el("label", { className: "field" }, el("span", { textContent: words.step }), step);
@@ -41,15 +41,24 @@ export function recordControls(store: Store): HTMLElement {
     // What is wrong from here on is the scene.
     await shake(store, file, options).catch((problem: unknown) => store.fail(problem));
   };
-  const open = async (file: File) => {
-    if (file.size > MOST_MB * 1e6) {
-      store.fail(words.tooLarge(file.name, file.size / 1e6, MOST_MB));
+  const open = async (files: File[]) => {
+    const large = files.find(({ size }) => size > MOST_MB * 1e6);
+    if (large) {
+      store.fail(words.tooLarge(large.name, large.size / 1e6, MOST_MB));
       return;
     }
     try {
-      await take({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()), own: true });
+      const scene = files.find(({ name }) => /\.toml$/i.test(name));
+      const records = await Promise.all(files.filter((file) => file !== scene).map(read));
+      if (scene) {
+        store.open(await given(store, await scene.text(), records));
+        return;
+      }
+      for (const record of records) {
+        await take(record);
+      }
     } catch (problem) {
-      store.fail(words.unreadable(file.name, String(problem)));
+      store.fail(words.unreadable(files.map(({ name }) => name).join(", "), String(problem)));
     }
   };
   const again = button(words.again, () => {
@@ -59,11 +68,8 @@ export function recordControls(store: Store): HTMLElement {
   });
   again.hidden = true;
   chooser.addEventListener("change", () => {
-    const file = chooser.files?.[0];
     // The same file may be chosen again.
-    if (file) {
-      void open(file).finally(() => (chooser.value = ""));
-    }
+    void open([...(chooser.files ?? [])]).finally(() => (chooser.value = ""));
   });
   takeDrops(open);
   const label = el("label", { className: "field" }, el("span", { textContent: words.choose }), chooser);
@@ -77,6 +83,10 @@ export function recordControls(store: Store): HTMLElement {
     more,
     said,
   );
+}
+
+async function read(file: File): Promise<RecordFile> {
+  return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()), own: true };
 }
 
 function describe(about: RecordAbout): string {
@@ -104,7 +114,7 @@ async function shake(store: Store, file: RecordFile, options: { units?: string; 
 }
 
 /** Takes files that are dropped anywhere on the page, and shows that it does while one is above it. */
-function takeDrops(open: (file: File) => Promise<void>): void {
+function takeDrops(open: (files: File[]) => Promise<void>): void {
   const veil = el("div", { className: "veil", hidden: true, textContent: texts.page.records.dropping });
   document.body.append(veil);
   const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") === true;
@@ -121,10 +131,10 @@ function takeDrops(open: (file: File) => Promise<void>): void {
   });
   addEventListener("drop", (event) => {
     veil.hidden = true;
-    const file = event.dataTransfer?.files[0];
-    if (file) {
+    const files = [...(event.dataTransfer?.files ?? [])];
+    if (files.length > 0) {
       event.preventDefault();
-      void open(file);
+      void open(files);
     }
   });
 }

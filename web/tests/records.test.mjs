@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { open, scene, texts, until } from "./browser.mjs";
-import { EXAMPLES, alert, anotherDigest, choose, drop, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
+import { EXAMPLES, alert, anotherDigest, choose, drop, dropAll, opened, shownDigest, thisDigest, toml } from "./shell.mjs";
 
 const words = texts.page.records;
 
@@ -68,6 +68,22 @@ test("a shipped scene that is pasted has its record", async (t) => {
   await choose(page, EXAMPLES.figure08);
   await choose(page, EXAMPLES.nearFault);
   await thisDigest(page, pasted);
+});
+
+test("a scene that is dropped is opened, with the records beside it", async (t) => {
+  const { page, first } = await opened(t);
+  const text = (await toml(page).inputValue()).replace(/size_m = .*/, "size_m = 3.25");
+  await drop(page, "scene.toml", text);
+  const larger = await anotherDigest(page, first);
+  assert.equal(await toml(page).inputValue(), text);
+  const block = "block = { size_m = 2.0, slenderness_deg = 10.0 }";
+  const shaken = `${block}\ndevice = [{ kind = "none" }]\nground = [{ motion = "record", file = "own.csv" }]\n`;
+  await dropAll(page, [
+    ["own.csv", MOTION],
+    ["SCENE.TOML", shaken],
+  ]);
+  await anotherDigest(page, larger);
+  assert.equal(await toml(page).inputValue(), shaken);
 });
 
 test("units are asked for where a record has none", async (t) => {

@@ -57,18 +57,20 @@ export const alert = (page) => page.getByRole("alert");
 
 /** Drops a file with this name and content on the page. `content` is a string, bytes, or a number of megabytes of zeros. */
 export async function drop(page, name, content) {
-  const plain = content instanceof Uint8Array ? [...content] : content;
-  const transfer = await page.evaluateHandle(
-    ([name, content]) => {
-      const megabyte = new Uint8Array(1_000_000);
-      const parts =
-        typeof content === "string" ? [content] : typeof content === "number" ? Array(content).fill(megabyte) : [new Uint8Array(content)];
-      const transfer = new DataTransfer();
-      transfer.items.add(new File(parts, name));
-      return transfer;
-    },
-    [name, plain],
-  );
+  await dropAll(page, [[name, content]]);
+}
+
+/** Drops files of these names and contents on the page together. */
+export async function dropAll(page, files) {
+  const plain = files.map(([name, content]) => [name, content instanceof Uint8Array ? [...content] : content]);
+  const transfer = await page.evaluateHandle((files) => {
+    const megabyte = new Uint8Array(1_000_000);
+    const parts = (content) =>
+      typeof content === "string" ? [content] : typeof content === "number" ? Array(content).fill(megabyte) : [new Uint8Array(content)];
+    const transfer = new DataTransfer();
+    files.forEach(([name, content]) => transfer.items.add(new File(parts(content), name)));
+    return transfer;
+  }, plain);
   for (const kind of ["dragenter", "dragover", "drop"]) {
     await page.dispatchEvent("body", kind, { dataTransfer: transfer });
   }

@@ -87,9 +87,10 @@ export function ownRecords({ text, records }: Source): RecordFile[] {
   return records.filter(({ name, own }) => own === true && named.includes(name));
 }
 
-/** A scene that is pasted: with what is at hand, and the examples' record where it names that and there is none. */
-export async function pasted(store: Store, text: string): Promise<Source> {
-  const { records } = store.source;
+/** A scene that is pasted or dropped, with the records `beside` it, those at hand, and that of the examples where it names it and there is none. */
+export async function given(store: Store, text: string, beside: RecordFile[] = []): Promise<Source> {
+  const before = store.source.records.filter(({ name }) => beside.every((other) => other.name !== name));
+  const records = [...before, ...beside];
   const lacksSample = recordsOf(text).includes(SAMPLE) && !records.some(({ name }) => name === SAMPLE);
   return { text, records: lacksSample ? [...records, ...(await withRecords(store, text, false)).records] : records };
 }

@@ -2,7 +2,7 @@
 import { button, debounce, download, el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
-import { fitsAddress, ownRecords, pasted } from "./open";
+import { fitsAddress, given, ownRecords } from "./open";
 import { downloadPng } from "./png";
 
 const TYPING_MS = 400;
@@ -38,7 +38,7 @@ export function scenePanel(store: Store): HTMLElement {
   };
   const paste = async () => {
     try {
-      store.open(await pasted(store, await navigator.clipboard.readText()));
+      store.open(await given(store, await navigator.clipboard.readText()));
     } catch {
       store.fail(words.pasteFailed);
     }

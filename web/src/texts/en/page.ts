@@ -125,9 +125,9 @@ export const page = {
   },
 
   records: {
-    heading: "Own record",
-    drop: "Drop a record anywhere on this page, or choose a file. PEER AT2, USGS SMC, SimCenter JSON, CSV and plain text are read. It stays on this machine.",
-    choose: "Choose a file …",
+    heading: "Own files",
+    drop: "Drop a record or a scene (.toml) anywhere on this page, or choose files. Of records, PEER AT2, USGS SMC, SimCenter JSON, CSV and plain text are read. They stay on this machine.",
+    choose: "Choose files …",
     units: "Units",
     asFile: "as the file says",
     step: "Time step (s), if the file has none",
@@ -139,7 +139,7 @@ export const page = {
     about: (name: string, format: string, units: string, samples: number, step: number, pga: number, pgv: number) =>
       `${name}: ${format}, ${units}, ${samples} samples of ${step} s, PGA ${(pga / 9.80665).toFixed(3)} g, PGV ${pgv.toFixed(3)} m/s`,
     here: "The scene is shaken by",
-    dropping: "Drop the record to shake the block by it",
+    dropping: "Drop a record to shake the block by it, or a scene to open it",
   },
 
   histories: {
