@@ -106,6 +106,18 @@ test("a block turns about the toe that it stands on", async () => {
   assert.ok(Math.abs(placed(shape, Math.PI / 2, 0.3, 4)[1]) < 1e-12);
 });
 
+test("a block stays within its picture as it turns", async () => {
+  const { depthM, heightM } = await load("block/room");
+  const { placed } = await load("block/geometry");
+  for (const halfWidthM of [0.1, 1, 1.5, 2, 10]) {
+    const shape = { halfWidthM, halfHeightM: 2, mount: { at: "height", heightM: 2 } };
+    for (let rotationRad = 0; rotationRad < Math.PI / 2; rotationRad += 0.01) {
+      const [, top] = placed(shape, rotationRad, -halfWidthM, 4);
+      assert.ok(top <= heightM(shape) - depthM(shape), `${halfWidthM} m, ${rotationRad} rad`);
+    }
+  }
+});
+
 test("a name is cut to the room that it has", async () => {
   const { fitted } = await load("block/label");
   const context = { measureText: (text) => ({ width: 10 * [...text].length }) };

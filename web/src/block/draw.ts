@@ -2,26 +2,7 @@
 import { flywheelBar, type Surface } from "../colours";
 import { placed, travel, type Shape } from "./geometry";
 import type { Pose } from "./motion";
-
-/** Half the width that a device is drawn in (m): room for the block on its side, and for the ground to move. */
-export function halfSpanM(shape: Shape): number {
-  return shape.halfWidthM + 1.5 * shape.halfHeightM;
-}
-
-/** How far the ground is drawn away from the middle at most (m). */
-export function roomForGroundM(shape: Shape): number {
-  return 0.3 * shape.halfHeightM;
-}
-
-/** Height that a device is drawn in (m): ground below, air above. */
-export function heightM(shape: Shape): number {
-  return 2.45 * shape.halfHeightM;
-}
-
-/** Height of ground below the base (m). */
-export function depthM(shape: Shape): number {
-  return 0.2 * shape.halfHeightM;
-}
+import { depthM, roomForGroundM } from "./room";
 
 /**
  * Draws a device with the middle of its base at the origin of `context`, x to the right and y up in m; `pixelM` is the length of a pixel,

@@ -5,10 +5,11 @@ import { el, say } from "../dom";
 import type { Store } from "../store";
 import { texts } from "../texts";
 import { onTheme } from "../theme";
-import { depthM, drawDevice, halfSpanM, heightM, roomForGroundM } from "./draw";
+import { drawDevice } from "./draw";
 import { placed, type Shape } from "./geometry";
 import { fitted } from "./label";
 import { motionOf, poseAt, valueAt, type Motion, type Pose } from "./motion";
+import { depthM, halfSpanM, heightM, roomForGroundM } from "./room";
 
 /** Where the devices are in the canvas (CSS px). */
 interface Layout {
