@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { mkdir, readFile } from "node:fs/promises";
 import { after } from "node:test";
-import { extname, join, normalize } from "node:path";
+import { extname, join, normalize, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { runnerImport } from "vite";
@@ -75,10 +75,11 @@ export async function open(t, { hash = "", prepare, mayFail = false, ...options 
   return page;
 }
 
-/** Keeps a picture of the whole page, or of `part` of it alone, in the folder that SPRAG_SCREENSHOTS names. */
+/** Keeps a picture of the whole page, or of `part` of it alone, in the folder that SPRAG_SCREENSHOTS names, from the root. */
 export async function keep(page, name, part) {
-  const folder = process.env.SPRAG_SCREENSHOTS;
-  if (folder) {
+  const named = process.env.SPRAG_SCREENSHOTS;
+  if (named) {
+    const folder = resolve(web, "..", named);
     await mkdir(folder, { recursive: true });
     const path = join(folder, `${name}.png`);
     await (part ? part.screenshot({ path }) : page.screenshot({ path, fullPage: true }));
