@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,6 +12,7 @@ from ._core import Record
 from ._result import SceneResult
 from ._scene import Scene, named
 from ._study import answer
+from .errors import InputError
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ class Design(SceneResult):
 def design(
     scene: Scene,
     *,
-    records: Sequence[Record] = (),
+    records: Record | Sequence[Record] = (),
     devices: str | Sequence[str] = (),
     margin: float = 1.25,
     service_factor: float = 1.5,
@@ -72,7 +73,7 @@ def design(
     scene
         The scene; its block has a mass.
     records
-        Records, each in the place of the scene's, beside its own motion.
+        Records, each in the place of the scene's, beside its own motion; one may stand alone.
     devices
         Name of the device to design, or names of several; all that have a flywheel without it.
     margin
@@ -93,7 +94,7 @@ def design(
     Raises
     ------
     InputError
-        For an assumption outside its range, a block without a mass, and devices that there are not.
+        For an assumption outside its range, a block without a mass, devices that there are not, and what is no record.
     RunError
         Where no device has a list: no motion lifts the block, or no standard gear bears the load.
     """
@@ -106,6 +107,9 @@ def design(
         "tolerance": tolerance,
     }
     names = [devices] if isinstance(devices, str) else list(devices)
-    native = _core.design(scene._native, records=named(records), devices=names, basis=basis, threads=threads)
+    given = list(records) if isinstance(records, Iterable) else [records]
+    if not all(isinstance(record, Record) for record in given):
+        raise InputError("records must be sprag.Record, as sprag.Record.read gives them", "records")
+    native = _core.design(scene._native, records=named(given), devices=names, basis=basis, threads=threads)
     page = native.pop("page")
     return Design(scene=scene, page=page, **answer(native, ("warnings", "failed", "left_out")))

@@ -44,6 +44,15 @@ def test_records_come_beside_the_motion_of_the_scene(scene: sprag.Scene) -> None
     assert both.motions["peak_rotation"][1] == 0.0 < both.motions["peak_rotation"][2]
 
 
+def test_one_record_may_stand_alone_and_what_is_none_is_refused(scene: sprag.Scene) -> None:
+    devices, record = "clutched pair", burst(4.0)
+    assert sprag.design(scene, devices=devices, records=record) == sprag.design(scene, devices=devices, records=[record])
+    for wrong in (1, [1], [None], "record.at2", [record, "record.at2"]):
+        with pytest.raises(sprag.InputError, match=r"sprag\.Record") as raised:
+            sprag.design(scene, records=wrong)
+        assert raised.value.key == "records"
+
+
 def test_records_of_one_file_name_are_distinguished(scene: sprag.Scene) -> None:
     shaking = burst(4.0).acceleration_m_s2
     records = [sprag.Record(shaking, time_step_s=0.01, name=f"{folder}/a.csv") for folder in ["one", "other"]]
