@@ -44,6 +44,24 @@ test("the way back leads to the scene of each address", async (t) => {
   await thisDigest(again, second);
 });
 
+test("an address whose event is still to come is not written over", async (t) => {
+  const { page, first } = await opened(t);
+  await choose(page, EXAMPLES.figure08);
+  const second = await anotherDigest(page, first);
+  const hash = await until("the scene in the address", async () => {
+    const now = new URL(page.url()).hash;
+    return now.startsWith("#s=") && now;
+  });
+  const { page: again } = await opened(t);
+  await enter(again.getByRole("spinbutton", { name: words.controls.size, exact: true }), "2.5");
+  // As back and forward do, before the page hears of it.
+  await again.evaluate((to) => history.replaceState(null, "", to), hash);
+  await again.waitForTimeout(1000);
+  assert.equal(new URL(again.url()).hash, hash);
+  await again.evaluate(() => dispatchEvent(new HashChangeEvent("hashchange")));
+  await thisDigest(again, second);
+});
+
 test("a scene that is too long for a link is said to be, and no link is copied", async (t) => {
   const { page } = await opened(t, { permissions: ["clipboard-read", "clipboard-write"] });
   const short = await toml(page).inputValue();

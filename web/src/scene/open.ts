@@ -18,23 +18,25 @@ export function fitsAddress(): boolean {
 /** Opens what the address says, now and whenever it is changed by hand, and writes every other scene into it. */
 export async function openAddress(store: Store): Promise<void> {
   let written = "";
+  let seen = location.hash;
   const write = async () => {
     const { source } = store;
     const hasOwn = ownRecords(source).some(({ name }) => name === SAMPLE);
     const packed = source.text === startText ? "" : await pack(source.text, hasOwn);
-    // The scene may have changed while it was packed.
-    if (source !== store.source) {
+    // The scene may have changed while it was packed, and the address too, whose event is still to come.
+    if (source !== store.source || location.hash !== seen) {
       return;
     }
     fits = packed !== null;
     const fragment = packed ?? "";
-    written = fragment;
+    written = seen = fragment;
     if (fragment !== location.hash) {
       history.replaceState(null, "", fragment === "" ? location.pathname + location.search : fragment);
     }
   };
   addEventListener("hashchange", () => {
     const { hash } = location;
+    seen = hash;
     if (hash === written) {
       return;
     }
