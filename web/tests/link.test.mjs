@@ -6,16 +6,20 @@ import { EXAMPLES, alert, anotherDigest, choose, enter, opened, shownDigest, thi
 
 const words = texts.page;
 
+/** The address of the page, once the scene is in it. */
+const sceneAddress = (page) =>
+  until("the scene in the address", async () => {
+    const now = new URL(page.url()).hash;
+    return now.startsWith("#s=") && now;
+  });
+
 test("a link that is opened again gives the same digest", async (t) => {
   const page = await open(t);
   await choose(page, EXAMPLES.nearFault);
   const shipped = await shownDigest(page);
   await enter(page.getByRole("spinbutton", { name: words.controls.size }), "2.4");
   const digest = await anotherDigest(page, shipped);
-  const hash = await until("the scene in the address", async () => {
-    const now = new URL(page.url()).hash;
-    return now.startsWith("#s=") && now;
-  });
+  const hash = await sceneAddress(page);
   await page.waitForTimeout(600);
   const again = await open(t, { hash: new URL(page.url()).hash });
   await thisDigest(again, digest);
@@ -27,10 +31,7 @@ test("the way back leads to the scene of each address", async (t) => {
   const { page, first } = await opened(t);
   await choose(page, EXAMPLES.figure08);
   const second = await anotherDigest(page, first);
-  const hash = await until("the scene in the address", async () => {
-    const now = new URL(page.url()).hash;
-    return now.startsWith("#s=") && now;
-  });
+  const hash = await sceneAddress(page);
   const again = await open(t);
   await thisDigest(again, first);
   await again.evaluate((to) => {
@@ -48,10 +49,7 @@ test("an address whose event is still to come is not written over", async (t) =>
   const { page, first } = await opened(t);
   await choose(page, EXAMPLES.figure08);
   const second = await anotherDigest(page, first);
-  const hash = await until("the scene in the address", async () => {
-    const now = new URL(page.url()).hash;
-    return now.startsWith("#s=") && now;
-  });
+  const hash = await sceneAddress(page);
   const { page: again } = await opened(t);
   await enter(again.getByRole("spinbutton", { name: words.controls.size, exact: true }), "2.5");
   // As back and forward do, before the page hears of it.
