@@ -55,12 +55,6 @@ impl Claim<'_> {
     }
 }
 
-/// The page at `path` and its command, if it is a result of Sprag.
-fn page_at(path: &Path) -> Option<(String, Value)> {
-    let page: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
-    Some((page.get("command")?.as_str()?.to_owned(), page))
-}
-
 /// A folder for results. What it made itself is removed with it where it is still empty: a command that fails leaves no empty folder.
 #[derive(Debug)]
 pub struct ResultFolder {
@@ -133,10 +127,7 @@ impl ResultFolder {
             }
         }
         if self.overwrite {
-            let page = page_at(&self.path.join(claim.page));
-            let replaced = page.is_some_and(|(command, page)| {
-                command == claim.subject.command && claim.subject.difference(&page, self.any_accuracy).is_some()
-            });
+            let replaced = matches!(self.difference(&claim.subject, &self.path.join(claim.page)), Ok(Some(_)));
             // Rows and their ledger are replaced by whoever makes rows.
             let of_rows = |name: &str| {
                 claim.is_ledger(name) || name.strip_suffix(".csv").is_some_and(|stem| names.contains(&format!("{stem}.run.json")))
@@ -167,15 +158,26 @@ impl ResultFolder {
 
     /// What the results of the page at `path` are of, if not of `subject`.
     fn other(&self, subject: &Subject, path: &Path) -> Option<String> {
+        let command = &subject.command;
+        let another = |what| format!("it holds results of another run of `sprag {command}`: {what} differs");
+        self.difference(subject, path).map_or_else(Some, |what| what.map(another))
+    }
+
+    /// In what the page at `path`, of the same command, differs from `subject`.
+    ///
+    /// # Errors
+    /// What else the page is of.
+    fn difference(&self, subject: &Subject, path: &Path) -> Result<Option<String>, String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let Some((command, page)) = page_at(path) else {
-            return Some(format!("its {name} is no result of sprag"));
+        let page: Option<Value> = fs::read(path).ok().and_then(|text| serde_json::from_slice(&text).ok());
+        let Some((page, command)) = page.as_ref().and_then(|page| Some((page, page.get("command")?.as_str()?))) else {
+            return Err(format!("its {name} is no result of sprag"));
         };
-        if command != subject.command {
-            return Some(format!("it holds results of `sprag {command}`"));
+        if command == subject.command {
+            Ok(subject.difference(page, self.any_accuracy))
+        } else {
+            Err(format!("it holds results of `sprag {command}`"))
         }
-        let what = subject.difference(&page, self.any_accuracy)?;
-        Some(format!("it holds results of another run of `sprag {command}`: {what} differs"))
     }
 
     /// Makes `inner`, a folder in this one, and those above it.
