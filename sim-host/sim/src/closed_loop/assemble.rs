@@ -186,11 +186,11 @@ impl<'a> LoopTask<'a> {
     /// What the controller believes of the same.
     fn lag(&self) -> ClutchLag {
         let table = self.controller;
-        let ticks = |lag: f64| match table.feedback {
+        let nearest = |lag: f64| match table.feedback {
             FeedbackName::Position => 0,
             FeedbackName::Current => (lag * table.belief.lag_factor * table.rate_hz).round() as u16,
         };
-        ClutchLag { closing: ticks(table.closing_lag_s), opening: ticks(table.opening_lag_s), closing_time: 0.0 }
+        ClutchLag { closing: nearest(table.closing_lag_s), opening: nearest(table.opening_lag_s), closing_time: 0.0 }
     }
 
     /// The controller by `law`.
